@@ -1,0 +1,121 @@
+-- The catalogue: <root>/catalogue.sqlite, version 1.
+--
+-- An index of the sealed run folders below <root>/cases and of the studies below <root>/studies: everything in it is
+-- made again from those at any time. This text is compiled into the program. Numbers are SI.
+
+-- A study, as it was last planned.
+CREATE TABLE study (
+  study_id    INTEGER PRIMARY KEY,   -- of no meaning outside this file
+  name        TEXT NOT NULL UNIQUE,  -- as its file says
+  question    TEXT NOT NULL,         -- what it asks
+  file_sha256 TEXT NOT NULL          -- SHA-256 of the study file that was read
+) STRICT;
+
+-- The cases of a study; they need not have been run.
+CREATE TABLE study_case (
+  study_id INTEGER NOT NULL REFERENCES study ON DELETE CASCADE,  -- the study
+  ordinal  INTEGER NOT NULL,                                     -- place in the study, from 0
+  case_id  TEXT NOT NULL CHECK (length(case_id) = 64),           -- the case
+  labels   TEXT NOT NULL,                                        -- JSON [[path, value with unit], ...]: what sets it apart
+  PRIMARY KEY (study_id, ordinal)
+) STRICT;
+CREATE INDEX study_case_by_case ON study_case (case_id);
+
+-- What was asked, of every case that has a run ("case" is a word of SQL).
+CREATE TABLE kase (
+  case_id   TEXT PRIMARY KEY CHECK (length(case_id) = 64),  -- SHA-256 of the canonical text
+  kind      TEXT NOT NULL,                                  -- "bed" or "drive"
+  canonical TEXT NOT NULL,                                  -- canonical text, in which a bed is its case id
+  bed_id    TEXT                                            -- case id of the bed; NULL: the case is a bed
+) STRICT;
+
+-- The parameters of a case: its newest run's scene, flattened to dotted paths ("pile.driving.constant.speed").
+-- The name of a choice stands under the path of the choice ("pile.tip" = 'flat'). Absent parts have two NULLs.
+CREATE TABLE param (
+  case_id TEXT NOT NULL REFERENCES kase ON DELETE CASCADE,  -- the case
+  path    TEXT NOT NULL,                                    -- dotted path into the scene
+  num     REAL,                                             -- value of a number
+  txt     TEXT,                                             -- value of anything else; lists as JSON
+  PRIMARY KEY (case_id, path)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX param_by_num ON param (path, num);
+CREATE INDEX param_by_txt ON param (path, txt);
+
+-- A complete run of a case.
+CREATE TABLE run (
+  run_id         INTEGER PRIMARY KEY,                       -- of no meaning outside this file
+  case_id        TEXT NOT NULL REFERENCES kase,             -- the case
+  number         INTEGER NOT NULL,                          -- 1, 2, ...: the newest has the highest
+  folder         TEXT NOT NULL,                             -- relative to the root
+  seal           TEXT NOT NULL,                             -- SHA-256 of the manifest
+  bed_run        TEXT,                                      -- run of the bed that was used; NULL: none
+  outcome        TEXT NOT NULL,                             -- "completed" or "diverged"
+  reason         TEXT NOT NULL,                             -- of the outcome; "" when completed
+  time           REAL,                                      -- reached [s]
+  depth          REAL,                                      -- reached [m]; NULL: no pile
+  state_hash     TEXT NOT NULL,                             -- XXH3 of the final state, 16 hex digits
+  records        INTEGER NOT NULL,                          -- rows of the series
+  frames         INTEGER NOT NULL,                          -- frames kept
+  version        TEXT NOT NULL,                             -- of Seapile
+  commit_sha     TEXT NOT NULL,                             -- of its source
+  dirty          INTEGER NOT NULL CHECK (dirty IN (0, 1)),  -- 1: the source had changes
+  host_cpu       TEXT NOT NULL,                             -- model of the processor
+  threads        INTEGER NOT NULL,                          -- used
+  simd           TEXT NOT NULL,                             -- instructions used
+  cpu_seconds    REAL,                                      -- spent [s]
+  wall_seconds   REAL,                                      -- spent [s]
+  peak_memory_mb REAL,                                      -- largest resident memory [MB]
+  attempts       INTEGER NOT NULL,                          -- times that it was started or resumed
+  UNIQUE (case_id, number)
+) STRICT;
+
+-- The named numbers that a finished run is known by.
+CREATE TABLE metric (
+  run_id  INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
+  name    TEXT NOT NULL,                                      -- such as "tip_resistance_mean"
+  ordinal INTEGER NOT NULL,                                   -- place in the run's own list, from 0
+  value   REAL,                                               -- NULL: not a number
+  unit    TEXT NOT NULL,                                      -- SI; "-" for numbers without
+  meaning TEXT NOT NULL,                                      -- one line
+  PRIMARY KEY (run_id, name)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX metric_by_value ON metric (name, value);
+
+-- The files of a run.
+CREATE TABLE artifact (
+  run_id INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
+  path   TEXT NOT NULL,                                      -- relative to the run's folder
+  bytes  INTEGER NOT NULL,                                   -- size
+  sha256 TEXT NOT NULL,                                      -- of its bytes
+  PRIMARY KEY (run_id, path)
+) STRICT, WITHOUT ROWID;
+
+-- The parts of the solver, and whether the run was built with them.
+CREATE TABLE part (
+  run_id  INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
+  name    TEXT NOT NULL,                                      -- such as "fluid"
+  ordinal INTEGER NOT NULL,                                   -- place in the run's own list, from 0
+  built   INTEGER NOT NULL CHECK (built IN (0, 1)),           -- 1: built
+  reason  TEXT NOT NULL,                                      -- why it was built, or left out
+  PRIMARY KEY (run_id, name)
+) STRICT, WITHOUT ROWID;
+
+-- The versions of the numerics that a run was made with: they decide whether it is fresh.
+CREATE TABLE numerics (
+  run_id  INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
+  module  TEXT NOT NULL,                                      -- such as "grains"
+  version INTEGER NOT NULL,                                   -- raised when the module's numbers move
+  PRIMARY KEY (run_id, module)
+) STRICT, WITHOUT ROWID;
+
+-- What a run's time went into.
+CREATE TABLE cost (
+  run_id  INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
+  part    TEXT NOT NULL,                                      -- of the solver's work
+  ordinal INTEGER NOT NULL,                                   -- place in the run's own list, from 0
+  seconds REAL,                                               -- spent [s]
+  calls   INTEGER NOT NULL,                                   -- how often
+  PRIMARY KEY (run_id, ordinal)
+) STRICT, WITHOUT ROWID;
+
+PRAGMA user_version = 1;

@@ -1,0 +1,52 @@
+// The commands of the program, one file each. A command adds itself to the application and says what to do when it is
+// the one that was called.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "runner/store/catalogue.h"
+
+namespace seapile::commands {
+
+/// What the called command does; returns the exit code.
+using Call = std::function<int()>;
+
+void add_run(CLI::App& app, Call& call);
+void add_query(CLI::App& app, Call& call);
+void add_curve(CLI::App& app, Call& call);
+void add_show(CLI::App& app, Call& call);
+void add_verify(CLI::App& app, Call& call);
+void add_reindex(CLI::App& app, Call& call);
+void add_exec(CLI::App& app, Call& call);
+
+/// What the user asked for on the command line cannot be done as it stands; exit code 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Adds `--store`, the folder of all results.
+void add_store_option(CLI::App& command, std::string& root);
+
+/// Adds `--where`, conditions that all have to hold.
+void add_where_option(CLI::App& command, std::vector<std::string>& where);
+
+/// What `query` and `curve` are limited to: the name of a study, or a study file, or "" for everything.
+std::string study_name(const std::string& study);
+
+/// Whether the catalogue knows the study ("": it need not); if not, says so on standard error.
+bool is_known(const std::string& study, const store::Catalogue& catalogue);
+
+/// Does `ask`; a name or condition that the catalogue does not know becomes a UsageError.
+auto usage_checked(auto ask) {
+  try {
+    return ask();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace seapile::commands

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "runner/commands/command.h"
+#include "runner/execute/campaign.h"
+#include "runner/execute/exit_codes.h"
+#include "runner/present/summary.h"
+#include "runner/study/study.h"
+
+namespace seapile::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunArguments {
+  std::string study;
+  study::Options options;
+  execute::CampaignOptions campaign;
+  bool dry_run = false;
+};
+
+void draw(const study::Study& study, const std::vector<present::CaseResult>& results, const fs::path& root) {
+  const present::Figure figure = present::resistance_figure(study.question, results);
+  if (figure.groups.empty()) return;
+  const fs::path svg = root / "figures" / (study.name + ".svg");
+  try {
+    present::draw(figure, svg);
+    fmt::print("\n{}\n", svg.string());
+  } catch (const store::StoreError& error) {
+    fmt::print(stderr, "{}\n", error.what());  // The results stand without their picture.
+  }
+}
+
+int run(const RunArguments& arguments) {
+  const study::Study study = study::read(arguments.study, arguments.options);
+  execute::Campaign campaign(study, arguments.campaign);
+  if (const auto objection = execute::objection(campaign.sharing()); !objection.empty()) throw UsageError(objection);
+  for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
+  if (arguments.dry_run) return execute::kDone;
+  const bool idle = std::ranges::all_of(
+      campaign.plan().tasks, [](const execute::Task& task) { return task.decision.action == execute::Action::fresh; });
+  if (idle) fmt::print(stderr, "nothing to run: every case is fresh\n");
+
+  const int code = campaign.carry_out();
+  std::vector<present::CaseResult> results;
+  for (const execute::CaseOutcome& outcome : campaign.outcomes()) {
+    results.push_back({outcome.case_id, outcome.labels, outcome.word, outcome.run_folder, outcome.bed_folder});
+  }
+  fmt::print("{}", present::text(present::summary(results), present::Format::table));
+  const std::string remark = present::packing_remark(results);
+  if (!remark.empty()) fmt::print("\n{}\n", remark);
+  draw(study, results, arguments.campaign.root);
+  return code;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Call& call) {
+  static RunArguments arguments;
+  execute::CampaignOptions& campaign = arguments.campaign;
+  CLI::App* command = app.add_subcommand("run", "Run what a study lacks, and show its results");
+  command->add_option("STUDY", arguments.study, "Study file")->required();
+  command->add_option("--set", arguments.options.set, "Change the base scene or the record, e.g. pile.depth=0.3")
+      ->type_name("PATH=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  command->add_option("--seeds", arguments.options.seeds, "Repeat every case on N packings: bed.seed = 1..N")
+      ->type_name("N");
+  command->add_option("-j,--jobs", campaign.sharing.jobs, "Cases at a time; default: the cores are shared out")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", campaign.sharing.threads, "Threads per case; changes no bit of the results")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--checkpoint", campaign.checkpoint_every, "Wall time between two checkpoints of a case [s]")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  add_store_option(*command, campaign.root);
+  command->add_flag("--dry-run", arguments.dry_run, "Say what would be run, and why; write nothing");
+  command->footer(
+      "Examples:\n"
+      "  runner run studies/tip_shape.json --dry-run\n"
+      "  runner run studies/velocity.json --seeds 5 --jobs 2\n"
+      "  runner run studies/tip_shape.json --set \"pile.driving.constant.speed=0.2 m/s\"");
+  command->callback([&call] { call = [] { return run(arguments); }; });
+}
+
+}  // namespace seapile::commands

@@ -1,0 +1,128 @@
+#include "runner/execute/campaign.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "runner/execute/exit_codes.h"
+#include "runner/execute/history.h"
+#include "runner/execute/processes.h"
+#include "runner/execute/progress.h"
+#include "runner/execute/provenance.h"
+#include "runner/store/catalogue.h"
+#include "runner/store/run_folder.h"
+
+namespace seapile::execute {
+
+namespace fs = std::filesystem;
+
+Campaign::Campaign(const study::Study& study, CampaignOptions options)
+    : study_(study), options_(std::move(options)), numerics_(simulation::numerics_versions()) {
+  options_.sharing.cores = usable_cores();
+  plan_ = make_plan(study_, numerics_, [this](const std::string& id) { return read_history(options_.root, id); });
+}
+
+int Campaign::carry_out() {
+  announce();
+  Processes processes(kThisProgram, [this](const Task& task) { return request_for(task); });
+  {
+    Display display(plan_, stderr, ::isatty(STDERR_FILENO) == 1);
+    Watch watch = display.watch();
+    watch.changed = [this, show = watch.changed](std::size_t task, State state, const std::string& why) {
+      if (state == State::completed || state == State::diverged) ingest(plan_.tasks[task].id);
+      show(task, state, why);
+    };
+    const StoreView store = {[this](const std::string& id) { return read_history(options_.root, id); },
+                             [this](const std::string& id) { return is_claimed(options_.root, id); }};
+    summary_ = execute::carry_out(plan_, study_, numerics_, options_.sharing, processes, store, watch);
+  }
+  const int code = exit_code(summary_);
+  if (ingest_trouble_.empty()) return code;
+  fmt::print(stderr, "{}\nThe results are safe in their folders; `runner reindex` lists them again.\n",
+             ingest_trouble_);
+  return code == kDone ? kStoreUnusable : code;
+}
+
+std::vector<CaseOutcome> Campaign::outcomes() const {
+  const auto word = [](State state) {
+    switch (state) {
+      case State::fresh:
+      case State::completed:
+        return "completed";
+      case State::diverged:
+        return "diverged";
+      case State::failed:
+        return "failed";
+      case State::blocked:
+        return "not run";
+      default:
+        return "interrupted";
+    }
+  };
+  std::map<std::string, State> states;
+  for (std::size_t i = 0; i < plan_.tasks.size(); ++i) states[plan_.tasks[i].id] = summary_.states[i];
+  std::vector<CaseOutcome> outcomes;
+  for (const study::Case& c : study_.cases) {
+    const State state = states.at(c.id);
+    CaseOutcome outcome{c.id, c.labels, word(state), {}, {}};
+    if (state == State::fresh || state == State::completed || state == State::diverged) {
+      outcome.run_folder = newest_run(c.id);
+      outcome.bed_folder = newest_run(c.bed_id);
+    }
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+fs::path Campaign::newest_run(const std::string& case_id) const {
+  const fs::path folder = store::case_folder(options_.root, case_id);
+  const auto runs = fs::is_directory(folder) ? store::complete_runs(folder) : std::vector<std::string>{};
+  return runs.empty() ? fs::path() : folder / runs.back();
+}
+
+/// Tells the catalogue of the study, and of finished runs that it has missed.
+void Campaign::announce() const {
+  auto catalogue = store::Catalogue::open(options_.root);
+  store::StudyEntry entry{study_.name, study_.question, study_.file_sha256, {}};
+  for (const study::Case& c : study_.cases) entry.cases.emplace_back(c.id, c.labels);
+  catalogue.put(entry);
+  for (const Task& task : plan_.tasks) {
+    if (task.decision.action != Action::fresh) continue;
+    const fs::path run = store::case_folder(options_.root, task.id) / task.decision.run;
+    if (catalogue.find(task.id) != run) catalogue.ingest(run);
+  }
+}
+
+void Campaign::ingest(const std::string& case_id) {
+  try {
+    store::Catalogue::open(options_.root).ingest(newest_run(case_id));
+  } catch (const store::StoreError& error) {
+    if (ingest_trouble_.empty()) ingest_trouble_ = error.what();
+  }
+}
+
+Request Campaign::request_for(const Task& task) const {
+  const study::Case& c = study_.cases[task.study_case];
+  Request request;
+  request.root = fs::absolute(options_.root).string();
+  request.case_id = task.id;
+  request.scene = c.scene;
+  request.record = study_.record;
+  request.checkpoint_every = options_.checkpoint_every;
+  if (task.kind == Kind::bed) {
+    request.kind = "bed";
+    request.canonical = c.bed_canonical;
+    request.scene.pile.reset();
+  } else {
+    request.kind = "drive";
+    request.canonical = c.canonical;
+    request.bed_id = c.bed_id;
+    request.bed_run = newest_run(c.bed_id).filename().string();
+  }
+  return request;
+}
+
+}  // namespace seapile::execute

@@ -1,0 +1,60 @@
+// A study on its way to results: planned against a store, carried out on this machine, ingested by this one writer.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runner/execute/plan.h"
+#include "runner/execute/pool.h"
+#include "runner/execute/request.h"
+#include "runner/study/study.h"
+
+namespace seapile::execute {
+
+struct CampaignOptions {
+  std::string root = "results";  ///< of the store
+  Sharing sharing;               ///< its cores are filled in here
+  double checkpoint_every = 10;  ///< [s] of wall time
+};
+
+/// What became of one case of the study.
+struct CaseOutcome {
+  std::string case_id;
+  std::vector<std::pair<std::string, std::string>> labels;
+  std::string word;                  ///< "completed", "diverged", "failed", "not run", "interrupted"
+  std::filesystem::path run_folder;  ///< its sealed run; empty when there is none to rely on
+  std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
+};
+
+class Campaign {
+ public:
+  /// Plans; writes nothing. `study` must outlive it.
+  Campaign(const study::Study& study, CampaignOptions options);
+
+  const Sharing& sharing() const { return options_.sharing; }
+  const Plan& plan() const { return plan_; }
+
+  /// Runs what is not fresh, with progress on standard error. Returns the exit code of the command. Throws
+  /// store::StoreError when the store cannot be used from the start.
+  int carry_out();
+
+  /// After carry_out(), in the order of the study's cases.
+  std::vector<CaseOutcome> outcomes() const;
+
+ private:
+  std::filesystem::path newest_run(const std::string& case_id) const;
+  void announce() const;
+  void ingest(const std::string& case_id);
+  Request request_for(const Task& task) const;
+
+  const study::Study& study_;
+  CampaignOptions options_;
+  std::vector<simulation::NumericsVersion> numerics_;
+  Plan plan_;
+  Summary summary_;
+  std::string ingest_trouble_;  ///< the first; the results are safe in their folders all the same
+};
+
+}  // namespace seapile::execute

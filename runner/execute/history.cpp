@@ -1,0 +1,77 @@
+#include "runner/execute/history.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "runner/execute/attempt.h"
+#include "runner/store/run_folder.h"
+
+namespace seapile::execute {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One sentence about the first file that is missing or has another size; the full check is `runner verify`.
+std::string visible_damage(const fs::path& run_folder, const store::Manifest& manifest) {
+  for (const store::FileEntry& file : manifest.files) {
+    std::error_code error;
+    const auto bytes = fs::file_size(run_folder / file.path, error);
+    if (error) return fmt::format("run {} is damaged: {} is missing", manifest.run, file.path);
+    if (bytes != file.bytes) {
+      return fmt::format("run {} is damaged: {} has {} bytes instead of {}", manifest.run, file.path, bytes,
+                         file.bytes);
+    }
+  }
+  return "";
+}
+
+PastRun read_past(const fs::path& run_folder, const std::string& run) {
+  PastRun past;
+  past.run = run;
+  try {
+    const store::Manifest manifest = store::read_manifest(run_folder);
+    past.outcome = manifest.result.outcome;
+    past.reason = manifest.result.reason;
+    past.numerics = manifest.header.numerics;
+    past.bed_run = manifest.header.bed_run;
+    if (manifest.header.kind == "drive") past.record = study::record_from_json(manifest.header.record_json);
+    past.damage = visible_damage(run_folder, manifest);
+  } catch (const store::StoreError& error) {
+    past.damage = fmt::format("run {} is damaged: {}", run, error.what());
+  } catch (const study::BadInput& error) {
+    past.damage = fmt::format("run {} is damaged: {}", run, error.what());
+  }
+  return past;
+}
+
+}  // namespace
+
+History read_history(const fs::path& root, const std::string& case_id) {
+  History history;
+  const fs::path folder = store::case_folder(root, case_id);
+  if (!fs::is_directory(folder)) return history;
+  const auto complete = store::complete_runs(folder);
+  if (!complete.empty()) history.past = read_past(folder / complete.back(), complete.back());
+  const std::string open = store::next_run(folder, true);
+  const bool newer = complete.empty() || open > complete.back();
+  if (newer && fs::is_directory(folder / open)) {
+    InterruptedRun interrupted;
+    interrupted.run = open;
+    if (const auto attempt = read_attempt(folder / open)) {
+      interrupted.checkpoint =
+          fs::exists(folder / open / "checkpoint" / "a.h5") || fs::exists(folder / open / "checkpoint" / "b.h5");
+      interrupted.numerics = attempt->numerics;
+      interrupted.record = attempt->record;
+      interrupted.bed_run = attempt->bed_run;
+    }
+    history.interrupted = std::move(interrupted);
+  }
+  return history;
+}
+
+bool is_claimed(const fs::path& root, const std::string& case_id) {
+  return !store::Claim::take(store::case_folder(root, case_id)).has_value();
+}
+
+}  // namespace seapile::execute

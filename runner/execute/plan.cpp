@@ -1,0 +1,206 @@
+#include "runner/execute/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace seapile::execute {
+namespace {
+
+using simulation::NumericsVersion;
+using simulation::Outcome;
+
+std::optional<int> version_of(const std::vector<NumericsVersion>& versions, const std::string& module) {
+  const auto found = std::ranges::find(versions, module, &NumericsVersion::module);
+  return found == versions.end() ? std::nullopt : std::optional(found->version);
+}
+
+std::string in_words(std::optional<int> version) { return version ? fmt::format("{}", *version) : "none"; }
+
+/// "numerics of grains 1 -> 2", for every module that moved; empty when none did.
+std::string moved_numerics(const std::vector<NumericsVersion>& before, const std::vector<NumericsVersion>& now) {
+  std::vector<std::string> moved;
+  const auto compare = [&](const std::string& module) {
+    const auto old_version = version_of(before, module), new_version = version_of(now, module);
+    if (old_version != new_version) {
+      moved.push_back(fmt::format("{} {} -> {}", module, in_words(old_version), in_words(new_version)));
+    }
+  };
+  for (const NumericsVersion& version : now) compare(version.module);
+  for (const NumericsVersion& version : before) {
+    if (!version_of(now, version.module)) compare(version.module);
+  }
+  return moved.empty() ? "" : fmt::format("numerics of {}", fmt::join(moved, ", "));
+}
+
+std::string listed(const std::vector<NumericsVersion>& versions) {
+  std::vector<std::string> words;
+  for (const NumericsVersion& version : versions)
+    words.push_back(fmt::format("{} {}", version.module, version.version));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Why a past run cannot stand for the case; empty when it can.
+std::string staleness(const Asked& asked, const PastRun& past) {
+  if (!past.damage.empty()) return past.damage;
+  if (past.outcome == Outcome::diverged) return fmt::format("last run diverged: {}", past.reason);
+  if (past.outcome == Outcome::stopped) return fmt::format("last run stopped: {}", past.reason);
+  if (const auto moved = moved_numerics(past.numerics, asked.numerics); !moved.empty()) return moved;
+  if (past.bed_run != asked.bed_run) return fmt::format("bed newly computed (run {})", asked.bed_run);
+  if (!asked.record) return "";
+  return past.record ? lacking(*past.record, *asked.record) : "nothing recorded";
+}
+
+bool continues(const Asked& asked, const InterruptedRun& run) {
+  return run.checkpoint && run.bed_run == asked.bed_run && run.record == asked.record &&
+         moved_numerics(run.numerics, asked.numerics).empty();
+}
+
+/// The number that a bed's run will have had once this plan is carried out.
+std::string run_to_come(const History& bed, const Decision& decision) {
+  if (!decision.run.empty()) return decision.run;
+  return bed.past || bed.interrupted ? "" : "0001";  // "": some later number, which no drive can have been built on
+}
+
+int most_threads(const scene::SceneSpec& scene) {
+  return static_cast<int>(std::clamp<std::int64_t>(scene.bed.grains.count / kGrainsPerThread, 1, 1024));
+}
+
+}  // namespace
+
+std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want) {
+  const auto differs = [](const char* what, double recorded, double asked, const char* unit) {
+    return fmt::format("{} of {} {} recorded, {} {} asked for", what, recorded, unit, asked, unit);
+  };
+  if (have.travel != want.travel) return differs("travel between records", have.travel, want.travel, "m");
+  if (have.window != want.window) return differs("frame window", have.window, want.window, "s");
+  if (have.spacing != want.spacing) return differs("grid spacing", have.spacing, want.spacing, "m");
+  for (const double frame : want.frames) {
+    if (std::ranges::find(have.frames, frame) == have.frames.end()) {
+      return fmt::format("frame at {} m not recorded", frame);
+    }
+  }
+  return "";
+}
+
+Decision decide(const Asked& asked, const History& history) {
+  std::string reason = "never run";
+  if (history.past) {
+    reason = staleness(asked, *history.past);
+    if (reason.empty()) {
+      return {Action::fresh, fmt::format("completed with today's numerics ({})", listed(asked.numerics)),
+              history.past->run};
+    }
+  }
+  if (history.interrupted) {
+    const InterruptedRun& interrupted = *history.interrupted;
+    if (continues(asked, interrupted)) {
+      return {Action::resume, fmt::format("run {} was interrupted after a checkpoint", interrupted.run),
+              interrupted.run};
+    }
+    if (!interrupted.checkpoint) {
+      // Nothing in that folder is worth keeping: its number is used again.
+      return {Action::run, history.past ? reason : "interrupted before its first checkpoint", interrupted.run};
+    }
+    if (!history.past) {
+      const auto moved = moved_numerics(interrupted.numerics, asked.numerics);
+      reason = moved.empty() ? "interrupted, with another bed or record" : "interrupted, since then " + moved;
+    }
+  }
+  return {Action::run, reason, ""};
+}
+
+Plan make_plan(const study::Study& study, const std::vector<NumericsVersion>& numerics, const Disk& disk) {
+  Plan plan;
+  struct BedState {
+    std::size_t task;
+    History history;
+    bool needed = false;
+  };
+  std::map<std::string, BedState> beds;  // by bed id
+
+  // Every bed once, in the order in which the study first names it.
+  for (std::size_t i = 0; i < study.cases.size(); ++i) {
+    const study::Case& c = study.cases[i];
+    const bool is_bed = c.id == c.bed_id;
+    auto [bed, inserted] = beds.try_emplace(c.bed_id, BedState{plan.tasks.size(), {}, is_bed});
+    bed->second.needed |= is_bed;
+    if (!inserted) continue;
+    bed->second.history = disk(c.bed_id);
+    plan.tasks.push_back({Kind::bed, c.bed_id, i, std::nullopt, "bed " + short_id(c.bed_id), most_threads(c.scene),
+                          decide({numerics, std::nullopt, ""}, bed->second.history)});
+  }
+  // A drive by itself: a bed that has been run again since, or is lost, does not count yet.
+  std::vector<History> histories(study.cases.size());
+  for (std::size_t i = 0; i < study.cases.size(); ++i) {
+    const study::Case& c = study.cases[i];
+    if (c.id == c.bed_id) continue;
+    histories[i] = disk(c.id);
+    BedState& bed = beds.at(c.bed_id);
+    const Decision& of_bed = plan.tasks[bed.task].decision;
+    Asked asked{numerics, study.record, of_bed.run};
+    if (of_bed.action != Action::fresh) asked.bed_run = histories[i].past ? histories[i].past->bed_run : "";
+    const Decision decision = decide(asked, histories[i]);
+    bed.needed |= decision.action != Action::fresh;
+    const std::string labels = label_line(c.labels);
+    plan.tasks.push_back({Kind::drive, c.id, i, bed.task, labels.empty() ? "case " + short_id(c.id) : labels,
+                          most_threads(c.scene), decision});
+  }
+  // A bed that is run for one drive is new to all that are built on it.
+  for (Task& task : plan.tasks) {
+    if (task.kind == Kind::bed) continue;
+    const study::Case& c = study.cases[task.study_case];
+    const BedState& bed = beds.at(c.bed_id);
+    const Decision& of_bed = plan.tasks[bed.task].decision;
+    if (!bed.needed || of_bed.action == Action::fresh) continue;
+    const std::string run = run_to_come(bed.history, of_bed);
+    const bool was_fresh = task.decision.action == Action::fresh;
+    task.decision = decide({numerics, study.record, run}, histories[task.study_case]);
+    if (was_fresh && task.decision.action != Action::fresh) task.decision.reason = "bed newly computed";
+  }
+  // Lost or outdated beds of fresh drives are nobody's concern.
+  std::vector<std::optional<std::size_t>> kept(plan.tasks.size());
+  Plan trimmed;
+  for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
+    Task& task = plan.tasks[i];
+    const bool idle = task.kind == Kind::bed && task.decision.action != Action::fresh && !beds.at(task.id).needed;
+    if (idle) continue;
+    if (task.bed) task.bed = kept[*task.bed];
+    kept[i] = trimmed.tasks.size();
+    trimmed.tasks.push_back(std::move(task));
+  }
+  return trimmed;
+}
+
+std::vector<std::string> describe(const Plan& plan) {
+  constexpr std::size_t kMostLines = 16;
+  const auto verb = [](Action action) {
+    return action == Action::fresh ? "fresh" : action == Action::resume ? "resume" : "run";
+  };
+  std::vector<std::string> lines;
+  if (plan.tasks.size() <= kMostLines) {
+    for (const Task& task : plan.tasks) {
+      lines.push_back(fmt::format("{:<6}  {}: {}", verb(task.decision.action), task.name, task.decision.reason));
+    }
+    return lines;
+  }
+  std::map<std::pair<Action, std::string>, std::size_t> counts;
+  for (const Task& task : plan.tasks) ++counts[{task.decision.action, task.decision.reason}];
+  for (const auto& [key, count] : counts) {
+    lines.push_back(fmt::format("{:<6}  {} cases: {}", verb(key.first), count, key.second));
+  }
+  return lines;
+}
+
+std::string short_id(const std::string& case_id) { return case_id.substr(0, 10); }
+
+std::string label_line(const std::vector<std::pair<std::string, std::string>>& labels) {
+  std::vector<std::string> words;
+  for (const auto& [path, value] : labels) words.push_back(fmt::format("{}={}", path, value));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace seapile::execute

@@ -1,0 +1,100 @@
+// What has to be run, and why. Pure functions of the study and of what is on disk: nothing is started here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runner/study/study.h"
+#include "solver/scene/spec.h"
+#include "solver/simulation/run.h"
+
+namespace seapile::execute {
+
+/// The newest run of a case that came to an end.
+struct PastRun {
+  std::string run;  ///< "0001"
+  simulation::Outcome outcome = simulation::Outcome::completed;
+  std::string reason;  ///< why it did not complete
+  std::vector<simulation::NumericsVersion> numerics;
+  std::optional<scene::RecordSpec> record;  ///< absent for a bed
+  std::string bed_run;                      ///< "" for a bed
+  std::string damage;                       ///< one sentence when the run cannot be used; the rest then means nothing
+};
+
+/// A newer run that was started and did not come to an end.
+struct InterruptedRun {
+  std::string run;
+  bool checkpoint = false;  ///< there is something to continue from
+  std::vector<simulation::NumericsVersion> numerics;
+  std::optional<scene::RecordSpec> record;
+  std::string bed_run;
+};
+
+/// What is on disk of one case.
+struct History {
+  std::optional<PastRun> past;
+  std::optional<InterruptedRun> interrupted;
+};
+
+/// Tells the history of a case id.
+using Disk = std::function<History(const std::string& case_id)>;
+
+/// What a run must have been made with to be used again.
+struct Asked {
+  std::vector<simulation::NumericsVersion> numerics;
+  std::optional<scene::RecordSpec> record;  ///< absent for a bed
+  std::string bed_run;                      ///< the bed's newest run; "" for a bed
+};
+
+enum class Action { fresh, resume, run };
+
+struct Decision {
+  Action action = Action::run;
+  std::string reason;  ///< in words
+  std::string run;     ///< the run that is fresh, resumed, or begun again; "" for a new one
+};
+
+/// What to do about one case.
+Decision decide(const Asked& asked, const History& history);
+
+/// What `have` lacks of `want`, in words; empty when it covers it: the same rhythm and grid, and at least its frames.
+std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want);
+
+enum class Kind { bed, drive };
+
+/// One case to be considered: a bed, or a drive that is built on one.
+struct Task {
+  Kind kind = Kind::drive;
+  std::string id;                  ///< case id
+  std::size_t study_case = 0;      ///< its case in the study; for a bed the first that is built on it
+  std::optional<std::size_t> bed;  ///< a drive's bed among the tasks; it stands before the drive
+  std::string name;                ///< short and for people: "bed 3f2a90c1d4" or "pile.tip=flat"
+  int most_threads = 1;            ///< with more its threads would mostly wait for each other
+  Decision decision;
+};
+
+/// Grains that keep one thread busy: below it a second one makes a case slower, on a busy machine by orders of
+/// magnitude.
+inline constexpr std::int64_t kGrainsPerThread = 3000;
+
+struct Plan {
+  std::vector<Task> tasks;  ///< beds first, each once
+};
+
+/// Decides about every case of the study. Beds that nothing needs any more are left out.
+Plan make_plan(const study::Study& study, const std::vector<simulation::NumericsVersion>& numerics, const Disk& disk);
+
+/// The plan for people, one line per case; many cases with the same reason share a line.
+std::vector<std::string> describe(const Plan& plan);
+
+/// The first ten hex digits of a case id: what people see.
+std::string short_id(const std::string& case_id);
+
+/// The labels of a case in one line: "pile.tip=flat, bed.seed=2".
+std::string label_line(const std::vector<std::pair<std::string, std::string>>& labels);
+
+}  // namespace seapile::execute

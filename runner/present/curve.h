@@ -1,0 +1,24 @@
+// The series of many runs as one tidy table: a row per record, what tells the cases apart repeated on every row.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "runner/present/table.h"
+#include "solver/simulation/record.h"
+
+namespace seapile::present {
+
+/// A run to be written, and how to read its series when its turn comes.
+struct CurveSource {
+  std::string case_id, run;
+  Labels labels;
+  std::filesystem::path run_folder;
+};
+
+/// Writes CSV: "case", "run", the labels, then every column of the record, units in the header. One run is in memory at
+/// a time. Throws store::StoreError when a series cannot be read or the file not be written.
+void write_curves(const std::vector<CurveSource>& sources, std::FILE* out);
+
+}  // namespace seapile::present

@@ -1,0 +1,328 @@
+#include "runner/present/figure.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/exe.hpp>
+#include <boost/process/io.hpp>
+#include <boost/process/pipe.hpp>
+#include <boost/process/search_path.hpp>
+#include <boost/process/start_dir.hpp>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "runner/store/run_folder.h"
+
+namespace seapile::present {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In pixels; the picture is drawn for a page's or a screen's column.
+constexpr int kWidth = 760, kHeight = 960, kTitleLine = 25, kNoteLine = 22, kSide = 28;
+constexpr std::size_t kTitleCharacters = 66, kMostTitleLines = 3;
+
+constexpr std::size_t kMostPoints = 2400;  // of one faint line: about three per pixel of its height
+
+// Okabe and Ito's colours, told apart by colour-blind readers; their yellow is too pale for a line on white.
+constexpr std::string_view kColours[] = {"0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "444444"};
+constexpr std::size_t kColourCount = std::size(kColours);
+constexpr std::string_view kDashes[] = {"solid", "(12,5)", "(3,4)"};
+
+/// A gnuplot string. What could end it, run a command or name a macro is written by its octal code.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      result += ' ';
+    } else if (std::string_view("\"\\`'$@").find(c) != std::string_view::npos) {
+      result += fmt::format("\\{:03o}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+/// Lines of at most `most` characters, broken at spaces.
+std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
+  const auto length = [](const std::string& s) {
+    return static_cast<std::size_t>(std::ranges::count_if(s, [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  std::vector<std::string> lines;
+  std::string line, word;
+  const auto take = [&] {
+    if (word.empty()) return;
+    if (!line.empty() && length(line) + 1 + length(word) > most) {
+      lines.push_back(line);
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    word.clear();
+  };
+  for (const char c : text) {
+    if (c == ' ' || c == '\n' || c == '\t') {
+      take();
+    } else {
+      word += c;
+    }
+  }
+  take();
+  if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+/// At most kMostPoints points of a curve: of every stretch, its lowest and its highest value, in their order.
+ResistanceCurve thinned(const ResistanceCurve& curve) {
+  const std::size_t count = curve.depth.size();
+  if (count <= kMostPoints) return curve;
+  const std::size_t stretch = (2 * count + kMostPoints - 1) / kMostPoints;
+  ResistanceCurve result;
+  for (std::size_t first = 0; first < count; first += stretch) {
+    const auto begin = curve.resistance.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = curve.resistance.begin() + static_cast<std::ptrdiff_t>(std::min(count, first + stretch));
+    auto [low, high] = std::minmax_element(begin, end);
+    if (high < low) std::swap(low, high);
+    for (const auto value : {low, high}) {
+      result.depth.push_back(curve.depth[static_cast<std::size_t>(value - curve.resistance.begin())]);
+      result.resistance.push_back(*value);
+    }
+  }
+  return result;
+}
+
+/// A gnuplot data block of q_c in kPa against depth.
+std::string data_block(const std::string& name, const std::vector<double>& depth,
+                       const std::vector<double>& resistance) {
+  std::string block = fmt::format("${} << END\n", name);
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    block += fmt::format("{:.6g} {:.6g}\n", resistance[i] / 1000, depth[i]);
+  return block + "END\n";
+}
+
+std::string data_block(const std::string& name, const std::vector<std::pair<double, double>>& means) {
+  std::vector<double> depth, resistance;
+  for (const auto& [d, q] : means) {
+    depth.push_back(d);
+    resistance.push_back(q);
+  }
+  return data_block(name, depth, resistance);
+}
+
+/// What the two kinds of line are.
+std::string note(const Figure& figure) {
+  const bool replicated =
+      std::ranges::any_of(figure.groups, [](const CurveGroup& group) { return group.packings.size() > 1; });
+  const std::string packing = replicated ? "" : " One packing of the grains.";
+  if (figure.groups.size() > kMostFaint) {
+    return fmt::format("Mean{} over {} m of depth.{}", replicated ? " of the packings" : "", kBinWidth, packing);
+  }
+  return fmt::format("Strong: mean{} over {} m of depth; faint: {}.{}", replicated ? " of the packings" : "", kBinWidth,
+                     replicated ? "each packing" : "every record", packing);
+}
+
+/// Title, note, axes and legend.
+std::string frame_of(const Figure& figure, double deepest, bool tension) {
+  std::string script;
+  std::vector<std::string> title = wrapped(figure.title, kTitleCharacters);
+  if (title.size() > kMostTitleLines) {
+    title.resize(kMostTitleLines);
+    title.back() += " …";
+  }
+  int top = kSide, label = 1;
+  const auto put = [&](const std::string& line, int height, const char* font, const char* colour) {
+    script += fmt::format("set label {} {} at screen {:.4f},{:.4f} left noenhanced font '{}' tc rgb '#{}'\n", label++,
+                          quoted(line), static_cast<double>(kSide) / kWidth, 1 - static_cast<double>(top) / kHeight,
+                          font, colour);
+    top += height;
+  };
+  for (const std::string& line : title) put(line, kTitleLine, "Helvetica:Bold,18", "1a1a1a");
+  put(note(figure), kNoteLine, "Helvetica,14", "666666");
+  script += fmt::format("set tmargin at screen {:.4f}\n", 1 - static_cast<double>(top + 66) / kHeight);
+  script += fmt::format("set bmargin at screen {:.4f}\n", static_cast<double>(kSide) / kHeight);
+  script += fmt::format("set lmargin at screen {:.4f}\n", 92.0 / kWidth);
+  script += fmt::format("set rmargin at screen {:.4f}\n", 1 - 36.0 / kWidth);
+  script +=
+      "set border 6 lw 1 lc rgb '#8c8c8c'\n"
+      "unset xtics\n"
+      "set format x2 '%g'\n"
+      "set format y '%g'\n"
+      "set x2tics out nomirror scale 0.6 tc rgb '#444444'\n"
+      "set ytics out nomirror scale 0.6 tc rgb '#444444'\n"
+      "set grid x2tics ytics back lt 1 lw 1 lc rgb '#e8e8e8'\n"
+      "set x2label 'Tip resistance {/:Italic q_c} (kPa)' offset 0,-0.5 tc rgb '#1a1a1a'\n"
+      "set ylabel 'Depth {/:Italic d} of the tip below the bed surface (m)' offset 1,0 tc rgb '#1a1a1a'\n"
+      "set key top right inside reverse Left noenhanced opaque fc rgb '#ffffff' samplen 2.2 spacing 1.25 "
+      "tc rgb '#1a1a1a'\n";
+  script += fmt::format("set x2range [{}:*]\n", tension ? "*" : "0");
+  script += fmt::format("set yrange [{:.6g}:0]\n", deepest > 0 ? deepest : 1.0);
+  return script;
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// gnuplot's SVG with what it cannot be told: bold as a weight, fonts to fall back to, spaces beside symbols,
+/// no pop-up names of its own.
+std::string finished(std::string svg) {
+  replace_all(svg, R"(font-family="Helvetica:Bold")", R"(font-weight="bold" font-family="Helvetica")");
+  replace_all(svg, R"(font-family="Helvetica")", R"(font-family="Helvetica, Arial, 'Liberation Sans', sans-serif")");
+  replace_all(svg, "<text>", R"(<text xml:space="preserve">)");
+  for (std::size_t at = 0; (at = svg.find("<title>", at)) != std::string::npos;) {
+    svg.erase(at, svg.find("</title>", at) + std::string_view("</title>").size() - at);
+  }
+  return svg;
+}
+
+struct Style {
+  std::string_view colour;
+  std::string_view dash;
+};
+
+Style style_of(std::size_t group) {
+  return {kColours[group % kColourCount], kDashes[std::min(group / kColourCount, std::size(kDashes) - 1)]};
+}
+
+}  // namespace
+
+std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve) {
+  struct Bin {
+    double sum = 0;
+    int count = 0;
+  };
+  std::map<long, Bin> bins;
+  double reached = 0, deepest = 0;
+  for (std::size_t i = 0; i < curve.depth.size(); ++i) {
+    deepest = std::max(deepest, curve.depth[i]);
+    if (curve.depth[i] <= reached) continue;
+    reached = curve.depth[i];
+    // A record that ends on a bin's lower edge lies in that bin; the tolerance is for depths summed from many steps.
+    Bin& bin = bins[std::lround(std::ceil(reached / kBinWidth - 1e-6)) - 1];
+    bin.sum += curve.resistance[i];
+    ++bin.count;
+  }
+  std::vector<std::pair<double, double>> means;
+  for (const auto& [index, bin] : bins) {
+    const double lower_edge = static_cast<double>(index + 1) * kBinWidth;
+    // Not full: the run ended inside it. A record may miss the edge by its own length.
+    if (lower_edge > deepest + 0.1 * kBinWidth) continue;
+    means.emplace_back((static_cast<double>(index) + 0.5) * kBinWidth, bin.sum / bin.count);
+  }
+  return means;
+}
+
+std::vector<std::pair<double, double>> mean_of_packings(const CurveGroup& group) {
+  std::map<double, std::pair<double, std::size_t>> sums;
+  for (const ResistanceCurve& packing : group.packings) {
+    for (const auto& [depth, value] : bin_means(packing)) {
+      sums[depth].first += value;
+      ++sums[depth].second;
+    }
+  }
+  std::vector<std::pair<double, double>> means;
+  for (const auto& [depth, sum] : sums) {
+    if (sum.second == group.packings.size()) {
+      means.emplace_back(depth, sum.first / static_cast<double>(sum.second));
+    }
+  }
+  return means;
+}
+
+std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
+  const bool with_faint = figure.groups.size() <= kMostFaint;
+  double deepest = 0, lowest = 0, highest = 0;
+  for (const CurveGroup& group : figure.groups) {
+    for (const ResistanceCurve& curve : group.packings) {
+      for (const double depth : curve.depth) deepest = std::max(deepest, depth);
+      for (const double value : curve.resistance) {
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+    }
+  }
+  std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n"
+      "set output {}\n",
+      kWidth, kHeight, quoted(svg.string()));
+  script += frame_of(figure, deepest, lowest < -0.02 * highest);
+
+  // Faint lines first, so that no strong line lies under one of them.
+  std::string blocks, faint, strong;
+  for (std::size_t g = 0; g < figure.groups.size(); ++g) {
+    const CurveGroup& group = figure.groups[g];
+    const auto [colour, dash] = style_of(g);
+    const bool replicated = group.packings.size() > 1;
+    for (std::size_t p = 0; with_faint && p < group.packings.size(); ++p) {
+      const std::string name = fmt::format("faint_{}_{}", g, p);
+      if (replicated) {
+        blocks += data_block(name, bin_means(group.packings[p]));
+      } else {
+        const ResistanceCurve raw = thinned(group.packings[p]);
+        blocks += data_block(name, raw.depth, raw.resistance);
+      }
+      faint += fmt::format("  ${} using 1:2 axes x2y1 with lines lw {} lc rgb '#{}{}' notitle, \\\n", name,
+                           replicated ? 1.2 : 0.8, replicated ? "80" : "a8", colour);
+    }
+    const std::string name = fmt::format("strong_{}", g);
+    blocks += data_block(name, mean_of_packings(group));
+    // A white edge keeps crossing lines apart.
+    strong += fmt::format("  ${} using 1:2 axes x2y1 with lines lw 5.5 lc rgb '#40ffffff' notitle, \\\n", name);
+    const std::string title = group.label.empty() ? "notitle" : "title " + quoted(group.label);
+    strong +=
+        fmt::format("  ${} using 1:2 axes x2y1 with lines lw 3 dt {} lc rgb '#{}' {}, \\\n", name, dash, colour, title);
+  }
+  // The last curve is never seen; it saves the list above from a special last line.
+  return script + blocks + "plot \\\n" + faint + strong + "  NaN axes x2y1 notitle\nset output\n";
+}
+
+void draw(const Figure& figure, const fs::path& svg) {
+  namespace bp = boost::process;
+  const auto fail = [&](const std::string& why) {
+    throw store::StoreError(store::StoreError::Kind::io, fmt::format("{} was not drawn: {}", svg.string(), why));
+  };
+  const auto gnuplot = bp::search_path("gnuplot");
+  if (gnuplot.empty()) fail("gnuplot is not installed");
+
+  // gnuplot gets a plain name in the picture's own folder, whatever that folder is called.
+  std::error_code error;
+  fs::create_directories(svg.parent_path(), error);
+  const std::string temporary = fmt::format(".figure-{}.tmp", ::getpid());
+  const fs::path written = svg.parent_path() / temporary;
+  std::string complaint;
+  int code = 0;
+  try {
+    bp::opstream input;
+    bp::ipstream output;
+    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::start_dir = svg.parent_path().string(),
+                    bp::std_in<input, bp::std_out> bp::null, bp::std_err > output);
+    input << gnuplot_script(figure, temporary) << std::flush;
+    input.pipe().close();
+    for (std::string line; std::getline(output, line);) {
+      if (complaint.empty() && line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
+    }
+    child.wait();
+    code = child.exit_code();
+  } catch (const std::system_error& failure) {
+    complaint = failure.what();
+    code = -1;
+  }
+  std::ifstream in(written);
+  std::string picture{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const bool whole = picture.find("</svg>") != std::string::npos;
+  fs::remove(written, error);
+  if (code != 0 || !whole) fail(complaint.empty() ? fmt::format("gnuplot ended with code {}", code) : complaint);
+  store::write_text(svg, finished(std::move(picture)));
+}
+
+}  // namespace seapile::present

@@ -1,0 +1,45 @@
+// Tip resistance against depth, as a picture: depth downwards, as soil is looked at.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace seapile::present {
+
+/// One run: q_c [Pa] at depth d [m], in the order of the records.
+struct ResistanceCurve {
+  std::vector<double> depth;
+  std::vector<double> resistance;
+};
+
+/// Runs that differ by their packing alone; they share a colour and a line in the legend.
+struct CurveGroup {
+  std::string label;
+  std::vector<ResistanceCurve> packings;
+};
+
+struct Figure {
+  std::string title;  ///< of any length; may hold any character
+  std::vector<CurveGroup> groups;
+};
+
+inline constexpr double kBinWidth = 0.05;     ///< [m] of depth
+inline constexpr std::size_t kMostFaint = 4;  ///< groups; of more, the means alone are drawn
+
+/// Means over bins of depth as (middle of the bin [m], mean [Pa]), over the records that reach new depth, so that a
+/// pile that moves up and down counts where it penetrates. Bins above the surface and bins that are not full are left
+/// out.
+std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve);
+
+/// Mean of the packings' bin means, over the bins that all of them have.
+std::vector<std::pair<double, double>> mean_of_packings(const CurveGroup& group);
+
+/// Input for gnuplot that draws the figure into `svg`.
+std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg);
+
+/// Draws the figure with gnuplot; the file appears when it is complete. Throws store::StoreError.
+void draw(const Figure& figure, const std::filesystem::path& svg);
+
+}  // namespace seapile::present

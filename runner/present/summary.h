@@ -1,0 +1,32 @@
+// What a study has come to, case by case.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runner/present/figure.h"
+#include "runner/present/table.h"
+#include "runner/store/catalogue.h"
+
+namespace seapile::present {
+
+/// One case of a study, done or not.
+struct CaseResult {
+  std::string case_id;
+  Labels labels;
+  std::string outcome;               ///< "completed", "diverged", "failed", ...
+  std::filesystem::path run_folder;  ///< its sealed run; empty when there is none
+  std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
+};
+
+/// Labels, outcome, and the numbers that a drive is known by. Throws store::StoreError.
+store::Table summary(const std::vector<CaseResult>& cases);
+
+/// The completed drives as a figure, packings of the same case together. Throws store::StoreError.
+Figure resistance_figure(const std::string& title, const std::vector<CaseResult>& cases);
+
+/// How far the numbers carry: whether each case was computed for one packing of grains only. Empty when for several.
+std::string packing_remark(const std::vector<CaseResult>& cases);
+
+}  // namespace seapile::present

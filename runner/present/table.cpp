@@ -1,0 +1,222 @@
+#include "runner/present/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace seapile::present {
+namespace {
+
+using store::Cell;
+using store::Table;
+
+/// One column as text, the units' prefix and the digits chosen for all of its rows together.
+struct Column {
+  std::string name, unit;
+  std::vector<std::string> cells;
+  bool numbers = false;  ///< aligned to the right
+};
+
+/// Characters that a terminal shows: UTF-8 code points.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Absence of control characters: a name must not be able to move the cursor.
+std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+double largest(const Table& table, std::size_t column) {
+  double most = 0;
+  for (const auto& row : table.rows) {
+    if (const auto* value = std::get_if<double>(&row[column]); value && std::isfinite(*value)) {
+      most = std::max(most, std::abs(*value));
+    }
+  }
+  return most;
+}
+
+/// Four significant digits of the largest value, the same decimals for every row.
+std::string number(double value, double most) {
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  if (value == std::floor(value) && std::abs(value) < 1e6 && most == std::floor(most))
+    return fmt::format("{:.0f}", value);
+  const int digits_before = most > 0 ? static_cast<int>(std::floor(std::log10(most))) + 1 : 1;
+  const bool small = value != 0 && std::abs(value) < most * 1e-3;
+  if (most >= 1e7 || most < 1e-3 || small) return fmt::format("{:.4g}", value);
+  return fmt::format("{:.{}f}", value, std::clamp(4 - digits_before, 0, 6));
+}
+
+Column as_text(const Table& table, std::size_t index) {
+  Column column{printable(table.columns[index]), table.units[index], {}, false};
+  double most = largest(table, index), scale = 1;
+  if (column.unit == "Pa" || column.unit == "N/m" || column.unit == "J/m") {
+    const auto use = [&](double factor, const char* prefix) {
+      scale = factor;
+      column.unit = prefix + column.unit;
+    };
+    if (most >= 1e6) {
+      use(1e-6, "M");
+    } else if (most >= 1e3) {
+      use(1e-3, "k");
+    }
+    most *= scale;
+  }
+  column.numbers = most > 0;
+  for (const auto& row : table.rows) {
+    if (const auto* value = std::get_if<double>(&row[index])) {
+      column.cells.push_back(number(*value * scale, most));
+      column.numbers = true;
+    } else if (const auto* words = std::get_if<std::string>(&row[index])) {
+      column.cells.push_back(printable(*words));
+    } else {
+      column.cells.emplace_back("-");
+    }
+  }
+  return column;
+}
+
+std::string aligned(const std::string& text, std::size_t columns, bool right) {
+  const std::string space(columns - std::min(columns, width(text)), ' ');
+  return right ? space + text : text + space;
+}
+
+std::string to_text(const Table& table) {
+  std::vector<Column> columns;
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    columns.push_back(as_text(table, i));
+    std::size_t most = std::max(width(columns[i].name), width(columns[i].unit));
+    for (const std::string& cell : columns[i].cells) most = std::max(most, width(cell));
+    widths.push_back(most);
+  }
+  std::string text;
+  const auto line = [&](auto cell) {
+    std::string one;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (i > 0) one += "  ";
+      one += aligned(cell(i), widths[i], columns[i].numbers);
+    }
+    one.erase(one.find_last_not_of(' ') + 1);
+    text += one + "\n";
+  };
+  line([&](std::size_t i) { return columns[i].name; });
+  const bool any_unit = std::ranges::any_of(columns, [](const Column& column) { return !column.unit.empty(); });
+  if (any_unit) line([&](std::size_t i) { return columns[i].unit; });
+  line([&](std::size_t i) { return std::string(widths[i], '-'); });
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    line([&](std::size_t i) { return columns[i].cells[row]; });
+  }
+  return text;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    text += (i > 0 ? "," : "") + csv_heading(table.columns[i], table.units[i]);
+  }
+  text += "\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i > 0) text += ",";
+      if (const auto* value = std::get_if<double>(&row[i])) {
+        text += fmt::format("{}", *value);
+      } else if (const auto* words = std::get_if<std::string>(&row[i])) {
+        text += csv_field(*words);
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string to_json(const Table& table) {
+  using nlohmann::ordered_json;
+  ordered_json columns = ordered_json::array(), rows = ordered_json::array();
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    columns.push_back({{"name", table.columns[i]}, {"unit", table.units[i]}});
+  }
+  for (const auto& row : table.rows) {
+    ordered_json object = ordered_json::object();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      ordered_json& cell = object[table.columns[i]];
+      if (const auto* value = std::get_if<double>(&row[i]); value && std::isfinite(*value)) cell = *value;
+      if (const auto* words = std::get_if<std::string>(&row[i])) cell = *words;
+    }
+    rows.push_back(std::move(object));
+  }
+  const ordered_json document = {{"schema", "runner/table/1"}, {"columns", columns}, {"rows", rows}};
+  return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string text(const Table& table, Format format) {
+  switch (format) {
+    case Format::table:
+      return to_text(table);
+    case Format::csv:
+      return to_csv(table);
+    case Format::json:
+      return to_json(table);
+  }
+  return "";
+}
+
+Table label_table(const std::vector<Labels>& cases) {
+  Table table;
+  for (const Labels& labels : cases) {
+    for (const auto& [path, value] : labels) {
+      if (std::ranges::find(table.columns, path) == table.columns.end()) table.columns.push_back(path);
+    }
+  }
+  table.units.resize(table.columns.size());
+  table.rows.resize(cases.size(), std::vector<Cell>(table.columns.size()));
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    std::vector<std::pair<std::size_t, double>> numbers;
+    std::vector<std::string> units;
+    for (std::size_t row = 0; row < cases.size(); ++row) {
+      const auto label = std::ranges::find(cases[row], table.columns[i], &Labels::value_type::first);
+      if (label == cases[row].end()) continue;
+      table.rows[row][i] = label->second;
+      const auto value = quantity(label->second);
+      if (value) numbers.emplace_back(row, value->first);
+      units.push_back(value ? value->second : "no number");
+    }
+    const bool one_unit = std::ranges::all_of(units, [&](const std::string& unit) { return unit == units[0]; });
+    if (!one_unit || units[0] == "no number") continue;
+    table.units[i] = units[0];
+    for (const auto& [row, value] : numbers) table.rows[row][i] = value;
+  }
+  return table;
+}
+
+std::optional<std::pair<double, std::string>> quantity(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  if (rest == end) return std::pair(value, std::string());
+  const std::string unit(rest + 1, end);
+  if (*rest != ' ' || unit.empty() || unit.find(' ') != std::string::npos) return std::nullopt;
+  return std::pair(value, unit);
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_heading(const std::string& name, const std::string& unit) {
+  return csv_field(unit.empty() ? name : fmt::format("{}[{}]", name, unit));
+}
+
+}  // namespace seapile::present

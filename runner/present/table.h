@@ -1,0 +1,37 @@
+// A table for people, for spreadsheets, and for programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runner/store/catalogue.h"
+
+namespace seapile::present {
+
+enum class Format {
+  table,  ///< aligned text; large numbers with a prefix of their unit ("kPa"), four significant digits
+  csv,    ///< RFC 4180, units in the header ("depth[m]"), every digit
+  json,   ///< "schema": "runner/table/1"
+};
+
+std::string text(const store::Table& table, Format format);
+
+/// What is said before rows that tell cases apart: one column per label.
+using Labels = std::vector<std::pair<std::string, std::string>>;
+
+/// Label columns of several cases: every path that occurs, in the order of first occurrence. A column whose values are
+/// all numbers with one unit becomes a column of numbers in that unit.
+store::Table label_table(const std::vector<Labels>& cases);
+
+/// "0.06 m/s" as 0.06 and "m/s"; absent when the text does not begin with a number or goes on otherwise.
+std::optional<std::pair<double, std::string>> quantity(const std::string& text);
+
+/// One field of a CSV file, quoted where RFC 4180 asks for it.
+std::string csv_field(const std::string& text);
+
+/// "depth[m]"; the name alone when there is no unit.
+std::string csv_heading(const std::string& name, const std::string& unit);
+
+}  // namespace seapile::present

@@ -1,0 +1,82 @@
+// The SQLite catalogue: an index of the sealed run folders, with one writer, rebuilt from them at any time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "runner/store/run_folder.h"
+
+namespace seapile::store {
+
+/// One cell of a query's answer: absent, number, or text.
+using Cell = std::variant<std::monostate, double, std::string>;
+
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::string> units;  ///< one per column, "" where there is none
+  std::vector<std::vector<Cell>> rows;
+};
+
+/// What sets a case apart in its study: (dotted path, value as text with its unit).
+using Labels = std::vector<std::pair<std::string, std::string>>;
+
+/// A study's cases as they were planned: (case id, labels), so that a query can be limited to a study.
+struct StudyEntry {
+  std::string name, question, file_sha256;
+  std::vector<std::pair<std::string, Labels>> cases;
+};
+
+class Catalogue {
+ public:
+  /// Opens or creates <root>/catalogue.sqlite for writing. Waits up to 20 s for another writer.
+  /// Throws StoreError::locked, ::damaged (also when it is newer than this program) or ::io.
+  static Catalogue open(const std::filesystem::path& root);
+  /// Opens for reading only; writes nothing, creates nothing.
+  static Catalogue open_read_only(const std::filesystem::path& root);
+  /// For a catalogue that open() finds damaged: keeps the file under another name and opens an empty one, to be
+  /// rebuilt.
+  static Catalogue open_anew(const std::filesystem::path& root);
+
+  /// Inserts or replaces a study and the order of its cases, also as a file below <root>/studies, from which rebuild()
+  /// makes it again.
+  void put(const StudyEntry& study);
+
+  /// Ingests a complete run in one transaction; ingesting it again changes nothing. Throws StoreError.
+  void ingest(const std::filesystem::path& run_folder);
+
+  /// Forgets everything and ingests every study and every complete run folder below the root, in one transaction.
+  /// Returns how many runs; `left_out` receives a sentence for each folder whose manifest or files do not hold.
+  std::size_t rebuild(std::vector<std::string>* left_out = nullptr);
+
+  /// The runs of a study (all when ""), newest run of each case, one row each. Columns: "case" (10 hex digits), "run",
+  /// "kind", "outcome", then the distinguishing labels, then `extra` (dotted parameter paths or metric names), or by
+  /// default the first six metrics in the runs' own order. `where`: conditions, ANDed, "path op value" with op one of =
+  /// != < <= > >= over parameters ("pile.driving.constant.speed", "bed.seed", "pile.tip"), metrics or "outcome"; values
+  /// are bound, never pasted. Throws std::invalid_argument naming the nearest known name for an unknown one.
+  Table query(const std::string& study, const std::vector<std::string>& where,
+              const std::vector<std::string>& extra) const;
+
+  /// The newest complete run folder of each case that query() would list, in its order, with its labels.
+  std::vector<std::pair<std::filesystem::path, Labels>> runs(const std::string& study,
+                                                             const std::vector<std::string>& where) const;
+
+  /// The run folder of the case whose id starts with `prefix`; empty path when none, throws std::invalid_argument when
+  /// several.
+  std::filesystem::path find(const std::string& prefix) const;
+
+  /// Names of the studies known.
+  std::vector<std::string> studies() const;
+
+ private:
+  Catalogue() = default;
+
+  struct Impl;
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace seapile::store

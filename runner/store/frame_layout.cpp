@@ -1,0 +1,87 @@
+#include "runner/store/frame_layout.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "runner/store/arrays.h"
+
+namespace seapile::store {
+
+namespace {
+
+using simulation::Array;
+using simulation::Frame;
+
+bool alike(const Array& a, const Array& b) {
+  return a.info.name == b.info.name && a.info.columns == b.info.columns && number_of(a) == number_of(b);
+}
+
+bool same_grid(const Frame::Grid& a, const Frame::Grid& b) {
+  return a.x0 == b.x0 && a.y0 == b.y0 && a.spacing == b.spacing && a.nx == b.nx && a.ny == b.ny;
+}
+
+}  // namespace
+
+FrameLayout layout_of(const FrameSource& frames, FrameList list) {
+  FrameLayout layout;
+  for (std::size_t k = 0; k < frames.count; ++k) {
+    Frame frame = frames.load(k);
+    std::vector<Array>& arrays = frame.*list;
+    const std::size_t rows = arrays.empty() ? 0 : row_count(arrays.front());
+    layout.time.push_back(frame.time);
+    layout.depth.push_back(frame.depth);
+    layout.asked.push_back(frame.asked);
+    layout.rows.push_back(rows);
+    layout.first_row.push_back(layout.total_rows);
+    layout.total_rows += rows;
+    if (k == 0) layout.grid = frame.grid;
+    if (!same_grid(layout.grid, frame.grid)) throw std::logic_error("the frames of a run have different grids");
+    for (Array& array : arrays) std::visit([](auto& values) { values.clear(); }, array.values);
+    if (layout.arrays.empty()) layout.arrays = arrays;
+    if (!arrays.empty() && !std::ranges::equal(layout.arrays, arrays, alike)) {
+      throw std::logic_error("the frames of a run have different arrays");
+    }
+  }
+  return layout;
+}
+
+std::string leaf(const Array& array) { return array.info.name.substr(array.info.name.find('/') + 1); }
+
+bool is_vector_in_space(const Array& array) {
+  static const std::set<std::string> kVectors = {"position", "velocity", "displacement", "normal"};
+  return array.info.columns == 2 && kVectors.contains(leaf(array));
+}
+
+Array in_space(const Array& array) {
+  Array padded{array.info, {}};
+  std::visit(
+      [&]<class T>(const std::vector<T>& values) {
+        auto& wide = padded.values.emplace<std::vector<T>>();
+        wide.reserve(values.size() / 2 * 3);
+        for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
+          wide.insert(wide.end(), {values[i], values[i + 1], T{0}});
+        }
+      },
+      array.values);
+  return padded;
+}
+
+void to_plane(Array& array) {
+  std::visit(
+      [](auto& values) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          if (i % 3 != 2) values[kept++] = values[i];
+        }
+        values.resize(kept);
+      },
+      array.values);
+}
+
+hdf5::Extents extents_in_file(const Array& array, std::size_t rows) {
+  const auto columns = static_cast<std::uint64_t>(is_vector_in_space(array) ? 3 : array.info.columns);
+  return {rows, columns == 1 ? 0 : columns};
+}
+
+}  // namespace seapile::store

@@ -1,0 +1,146 @@
+#include "runner/store/run_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "runner/store/bed_file.h"
+#include "runner/store/durable.h"
+#include "runner/store/frames_file.h"
+#include "runner/store/layout.h"
+#include "runner/store/manifest.h"
+#include "runner/store/series.h"
+#include "runner/store/sha256.h"
+
+namespace seapile::store {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+/// The runs of a case by rising number, complete or not.
+std::vector<std::string> all_runs(const Path& case_folder) {
+  std::vector<std::string> runs;
+  for (const Path& entry : entries(case_folder)) {
+    const std::string name = entry.filename().string();
+    const bool is_folder = std::filesystem::symlink_status(entry).type() == std::filesystem::file_type::directory;
+    if (run_number(name) > 0 && is_folder) runs.push_back(name);
+  }
+  std::ranges::sort(runs, {}, run_number);
+  return runs;
+}
+
+bool has_manifest(const Path& run_folder) { return is_there(run_folder / kManifestFile); }
+
+Stamp stamp_of(const Manifest& manifest) { return {manifest.header.case_id, manifest.run}; }
+
+/// The path without dots and without a slash at its end.
+Path plain(const Path& folder) {
+  const Path normal = std::filesystem::absolute(folder).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+}  // namespace
+
+bool is_case_id(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
+unsigned long run_number(const std::string& name) {
+  if (name.size() < 4 || name.size() > 9 || name.find_first_not_of("0123456789") != name.npos) return 0;
+  return std::stoul(name);
+}
+
+std::string run_name(const Path& run_folder) { return plain(run_folder).filename().string(); }
+
+std::optional<Claim> Claim::take(const Path& case_folder) {
+  make_folder(case_folder);
+  std::optional<Descriptor> lock = try_lock(case_folder / "lock");
+  if (!lock) return std::nullopt;
+  return Claim(lock->release());
+}
+
+Claim::Claim(int descriptor) : descriptor_(descriptor) {}
+
+Claim::Claim(Claim&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+Claim::~Claim() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Path case_folder(const Path& root, const std::string& case_id) {
+  if (!is_case_id(case_id)) throw std::invalid_argument("\"" + case_id + "\" is no case id");
+  return root / "cases" / case_id;
+}
+
+std::vector<std::string> complete_runs(const Path& case_folder) {
+  std::vector<std::string> runs = all_runs(case_folder);
+  std::erase_if(runs, [&](const std::string& run) { return !has_manifest(case_folder / run); });
+  return runs;
+}
+
+std::string next_run(const Path& case_folder, bool resume) {
+  const std::vector<std::string> runs = all_runs(case_folder);
+  if (runs.empty()) return "0001";
+  if (resume && !has_manifest(case_folder / runs.back())) return runs.back();
+  return fmt::format("{:04}", run_number(runs.back()) + 1);
+}
+
+Manifest read_manifest(const Path& run_folder) {
+  const Path file = run_folder / kManifestFile;
+  Manifest manifest = parse_manifest(read_text(file), file);
+  const std::string parent = plain(run_folder).parent_path().filename().string();
+  // A copy elsewhere is fine; one in the place of another run is not.
+  if (is_case_id(parent) && (parent != manifest.header.case_id || run_name(run_folder) != manifest.run)) {
+    throw StoreError(StoreError::Kind::damaged, file.string() + " is damaged: it is of run " + manifest.run +
+                                                    " of case " + manifest.header.case_id);
+  }
+  return manifest;
+}
+
+std::vector<std::string> verify(const Path& run_folder) {
+  std::vector<std::string> differences;
+  for (const FileEntry& entry : read_manifest(run_folder).files) {
+    const Path file = run_folder / entry.path;
+    try {
+      std::error_code error;
+      const std::uint64_t bytes = std::filesystem::file_size(file, error);
+      if (!error && bytes != entry.bytes) {
+        differences.push_back(fmt::format("{} has {} bytes instead of {}", file.string(), bytes, entry.bytes));
+      } else if (sha256_of_file(file) != entry.sha256) {
+        differences.push_back(file.string() + " has another SHA-256 than the manifest says");
+      }
+    } catch (const StoreError& error) {
+      differences.emplace_back(error.what());
+    }
+  }
+  return differences;
+}
+
+std::vector<simulation::Record> read_series(const Path& run_folder) {
+  const Manifest manifest = read_manifest(run_folder);
+  const bool has_bed = std::ranges::find(manifest.files, "bed.h5", &FileEntry::path) != manifest.files.end();
+  if (has_bed) return read_bed(run_folder / "bed.h5", stamp_of(manifest)).records;
+  hdf5::FileReader reader(run_folder / "series.h5");
+  check_stamp(reader, "series", stamp_of(manifest));
+  std::vector<simulation::Record> records = read_series(reader, "/series");
+  reader.close();
+  return records;
+}
+
+simulation::Bed read_bed(const Path& run_folder) {
+  return read_bed(run_folder / "bed.h5", stamp_of(read_manifest(run_folder)));
+}
+
+std::size_t frame_count(const Path& run_folder) { return read_manifest(run_folder).frames; }
+
+simulation::Frame read_frame(const Path& run_folder, std::size_t index) {
+  const Manifest manifest = read_manifest(run_folder);
+  if (index >= manifest.frames) throw std::out_of_range("the run has no frame " + std::to_string(index));
+  return read_frame(run_folder, stamp_of(manifest), index);
+}
+
+}  // namespace seapile::store

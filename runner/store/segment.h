@@ -1,0 +1,33 @@
+// What a run seals while it runs: at each checkpoint the records and frames since the one before, and the state.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runner/store/stamp.h"
+#include "solver/simulation/frame.h"
+#include "solver/simulation/record.h"
+
+namespace seapile::store {
+
+void write_segment(const std::filesystem::path& file, const Stamp& stamp,
+                   const std::vector<simulation::Record>& records, const std::vector<simulation::Frame>& frames);
+
+std::vector<simulation::Record> segment_records(const std::filesystem::path& file, const Stamp& stamp);
+std::size_t segment_frame_count(const std::filesystem::path& file, const Stamp& stamp);
+simulation::Frame segment_frame(const std::filesystem::path& file, const Stamp& stamp, std::size_t index);
+
+/// Throws std::logic_error when a frame is not what frame.h promises: its arrays' names and their rows.
+void require_well_formed(const simulation::Frame& frame);
+
+struct Checkpoint {
+  std::int64_t generation = 0;        ///< 1 for the first of a run
+  std::vector<std::string> segments;  ///< SHA-256 of the segments 1..generation, without which it is of no use
+  std::vector<simulation::Array> state;
+};
+
+void write_checkpoint(const std::filesystem::path& file, const Stamp& stamp, const Checkpoint& checkpoint);
+Checkpoint read_checkpoint(const std::filesystem::path& file, const Stamp& stamp);
+
+}  // namespace seapile::store

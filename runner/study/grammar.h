@@ -1,0 +1,51 @@
+// What a study file says, taken apart by its grammar and checked piece by piece; nothing is expanded yet.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runner/study/assignment.h"
+#include "runner/study/json_value.h"
+#include "runner/study/schema.h"
+#include "runner/study/study.h"
+
+namespace seapile::study {
+
+/// One path that takes several values.
+struct Column {
+  Path path;
+  const SchemaNode* node = nullptr;
+  PlacePtr place;
+  std::vector<Value> values;
+};
+
+/// Columns that advance together: one of "axes" or of the replicates, or all of "zip".
+struct Axis {
+  std::vector<Column> columns;
+  std::size_t size() const { return columns.front().values.size(); }
+};
+
+struct When {
+  Match condition;
+  std::vector<Assignment> set;
+};
+
+struct Grammar {
+  std::string name, question;
+  Value base;         ///< an object
+  Value record_text;  ///< an object, what is said of the record
+  scene::RecordSpec record;
+  std::vector<Axis> axes;  ///< the first varies slowest; zip after the axes, replicates last
+  std::vector<Match> exclude;
+  std::vector<When> when;
+  std::vector<Assignment> fidelity;  ///< what it fills in where the study says nothing
+  std::vector<Assignment> set;       ///< of the command line, for scenes
+};
+
+/// Takes the document apart. The grammar is complete as far as it is free of problems.
+Grammar read_grammar(const Value& document, const Options& options, base::Problems& problems);
+
+/// Number of combinations of the axes, before any is excluded; as a double because it may be any product.
+double combination_count(const Grammar& grammar);
+
+}  // namespace seapile::study

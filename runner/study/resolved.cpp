@@ -1,0 +1,80 @@
+#include "runner/study/resolved.h"
+
+#include <cstdint>
+
+#include "runner/study/field_reader.h"
+
+namespace seapile::study {
+namespace {
+
+template <class T>
+void resolve_member(const T& member, const std::string& path, ResolvedScene& resolved) {
+  const auto resolve_fields = [&resolved](const auto& spec, const std::string& prefix) {
+    resolved[prefix] = Present{};
+    const auto visit = [&](const base::Field& field, const auto& inner) {
+      resolve_member(inner, (prefix.empty() ? "" : prefix + ".") + std::string(field.key), resolved);
+    };
+    fields(visit, spec);
+  };
+  if constexpr (kIsOptional<T>) {
+    if (member) {
+      resolve_member(*member, path, resolved);
+    } else {
+      resolved[path] = nullptr;
+    }
+  } else if constexpr (kIsVariant<T>) {
+    std::visit(
+        [&](const auto& alternative) {
+          const std::string name = std::remove_cvref_t<decltype(alternative)>::kName;
+          resolve_fields(alternative, path + "." + name);
+          resolved[path] = name;
+        },
+        member);
+  } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string> ||
+                       std::is_same_v<T, std::vector<double>>) {
+    resolved[path] = member;
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    resolved[path] = static_cast<double>(member);
+  } else if constexpr (std::is_enum_v<T>) {
+    resolved[path] = enum_names<T>()[static_cast<std::size_t>(member)];
+  } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
+    resolved[path] = nullptr;
+  } else {
+    resolve_fields(member, path);
+  }
+}
+
+void erase_part(ResolvedScene& resolved, const std::string& path) {
+  std::erase_if(resolved, [&](const auto& entry) {
+    return entry.first == path || entry.first.compare(0, path.size() + 1, path + ".") == 0;
+  });
+}
+
+}  // namespace
+
+ResolvedScene resolve_all(const scene::SceneSpec& scene) {
+  ResolvedScene resolved;
+  resolve_member(scene, "", resolved);
+  return resolved;
+}
+
+ResolvedScene resolve_used(const scene::SceneSpec& scene) {
+  ResolvedScene resolved = resolve_all(scene);
+  if (!scene.pile) erase_part(resolved, "contact");
+  if (!scene.bed.file.empty()) {
+    for (const char* path : kDecidedByFile) erase_part(resolved, path);
+  }
+  return resolved;
+}
+
+std::vector<std::string> written_paths(const Value& value, const std::string& path) {
+  if (value.kind != Value::Kind::object || value.items.empty()) return {path};
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    const auto below = written_paths(value.items[i], path + "." + value.keys[i]);
+    paths.insert(paths.end(), below.begin(), below.end());
+  }
+  return paths;
+}
+
+}  // namespace seapile::study

@@ -1,0 +1,35 @@
+// The values of a complete scene by their dotted paths, for conditions and for telling what a scene uses.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "runner/study/json_value.h"
+#include "solver/scene/spec.h"
+
+namespace seapile::study {
+
+/// That a part is there, whatever is in it.
+struct Present {
+  friend bool operator==(Present, Present) = default;
+};
+/// Null, a part, a number, true or false, or a name or text.
+using Resolved = std::variant<std::nullptr_t, Present, double, bool, std::string, std::vector<double>>;
+using ResolvedScene = std::map<std::string, Resolved>;
+
+/// What a grain file decides: the study must leave it alone.
+inline constexpr std::array kDecidedByFile = {"bed.grains.count", "bed.grains.radius", "bed.seed"};
+
+/// Every value of the scene. A variant's path holds the name of its alternative.
+ResolvedScene resolve_all(const scene::SceneSpec& scene);
+
+/// Every value that the scene uses: without a pile no `contact`, with a grain file nothing that the file decides.
+ResolvedScene resolve_used(const scene::SceneSpec& scene);
+
+/// The paths that are written in `value`, which stands at `path`: its leaves and empty objects.
+std::vector<std::string> written_paths(const Value& value, const std::string& path);
+
+}  // namespace seapile::study

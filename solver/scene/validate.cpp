@@ -1,0 +1,301 @@
+// What a scene's fields must be to each other. Every bound that is not plain geometry has its reason beside it.
+#include "solver/scene/validate.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+
+namespace seapile::scene {
+namespace {
+
+using base::Problems;
+using std::numbers::pi;
+
+// The grid that finds contacts has cells of the largest diameter: a smaller ratio of radii keeps its cells from holding
+// more grains than are worth testing.
+constexpr double kLargestRatio = 100;
+// Solid fraction of discs poured loosely is above it, so what fits at this fraction also fits before it is settled.
+constexpr double kLoosest = 0.75;
+// Solid fraction of a usual bed; with it the height of a bed is estimated, on the high side.
+constexpr double kUsual = 0.80;
+constexpr double kMostSteps = 1e9;
+constexpr double kMostRecords = 1e6;
+constexpr std::size_t kMostFrames = 10'000;
+constexpr double kMostCells = 1e7;
+// Steps per period below which a vibration is not the one that was asked for.
+constexpr double kFewestStepsPerPeriod = 10;
+
+std::string text(double number) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 6).ptr};
+}
+
+std::string text(double number, const char* unit) { return text(number) + " " + unit; }
+
+/// Mean area of a disc whose radius is uniform between the two bounds [m2].
+double mean_area(const grains::RadiusSpec& r) { return pi * (r.min * r.min + r.min * r.max + r.max * r.max) / 3; }
+
+/// Area of all grains [m2].
+double grain_area(const grains::GrainsSpec& grains) {
+  return static_cast<double>(grains.count) * mean_area(grains.radius);
+}
+
+bool from_file(const BedSpec& bed) { return !bed.file.empty() || !bed.file_content.empty(); }
+
+/// Height of a bed that is drawn [m].
+double estimated_height(const BedSpec& bed) {
+  return grain_area(bed.grains) / (bed.preparation.solid_fraction.value_or(kUsual) * bed.domain.width);
+}
+
+/// What a drive does in a time, each bounded from above.
+struct Motion {
+  double down;  ///< deepest displacement [m]
+  double path;  ///< length of the way up and down [m]
+};
+
+Motion motion(const pile::ConstantDriving& drive, double time) {
+  return {std::max(0.0, drive.speed * time), std::abs(drive.speed) * time};
+}
+
+Motion motion(const pile::SinusoidalDriving& drive, double time) {
+  const double half_period = std::min(time, 0.5 / drive.frequency);
+  const double stroke =
+      drive.speed / (2 * pi * drive.frequency) * (1 - std::cos(2 * pi * drive.frequency * half_period));
+  return {std::max(0.0, stroke), std::abs(drive.speed) * time};
+}
+
+Motion motion(const pile::VibratoryDriving& drive, double time) {
+  return {std::max(0.0, drive.speed * time) + 2 * drive.amplitude,
+          std::abs(drive.speed) * time + 4 * drive.amplitude * drive.frequency * time};
+}
+
+Motion motion(const pile::Driving& driving, double time) {
+  return std::visit([&](const auto& drive) { return motion(drive, time); }, driving);
+}
+
+/// Speed averaged over a period [m/s]; a sine by itself goes nowhere.
+double mean_speed(const pile::Driving& driving) {
+  if (std::holds_alternative<pile::SinusoidalDriving>(driving)) return 0;
+  if (const auto* constant = std::get_if<pile::ConstantDriving>(&driving)) return constant->speed;
+  return std::get<pile::VibratoryDriving>(driving).speed;
+}
+
+/// Largest speed [m/s].
+double largest_speed(const pile::Driving& driving) {
+  if (const auto* constant = std::get_if<pile::ConstantDriving>(&driving)) return std::abs(constant->speed);
+  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&driving)) return std::abs(sine->speed);
+  const auto& vibratory = std::get<pile::VibratoryDriving>(driving);
+  return std::abs(vibratory.speed) + 2 * pi * vibratory.frequency * vibratory.amplitude;
+}
+
+/// Duration of a run as far as its scene tells it [s]; infinite when it never ends.
+double duration(const pile::PileSpec& pile) {
+  double time = pile.duration.value_or(std::numeric_limits<double>::infinity());
+  if (!pile.depth) return time;
+  if (const double speed = mean_speed(pile.driving); speed > 0) time = std::min(time, *pile.depth / speed);
+  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&pile.driving); sine && sine->speed > 0) {
+    if (sine->speed / (pi * sine->frequency) >= *pile.depth) time = std::min(time, 0.5 / sine->frequency);
+  }
+  return time;
+}
+
+std::string driving_pointer(const pile::Driving& driving, const char* key) {
+  const char* name = std::visit([](const auto& drive) { return std::decay_t<decltype(drive)>::kName; }, driving);
+  return std::string("/pile/driving/") + name + "/" + key;
+}
+
+void check_grains(const BedSpec& bed, Problems& problems) {
+  const auto& radius = bed.grains.radius;
+  const DomainSpec& box = bed.domain;
+  if (radius.min > radius.max) {
+    problems.push_back({"/bed/grains/radius/min", "is larger than radius.max", "at most " + text(radius.max, "m"), ""});
+    return;
+  }
+  if (radius.max > kLargestRatio * radius.min) {
+    problems.push_back({"/bed/grains/radius/max", "is more than 100 times radius.min",
+                        "at most " + text(kLargestRatio * radius.min, "m"), ""});
+  }
+  const double smaller_side = std::min(box.width, box.height);
+  if (2 * radius.max > smaller_side) {
+    problems.push_back(
+        {"/bed/grains/radius/max", "makes a grain larger than the box", "at most " + text(smaller_side / 2, "m"), ""});
+    return;
+  }
+  const double room = kLoosest * box.width * box.height;
+  if (!from_file(bed) && grain_area(bed.grains) > room) {
+    const double most = std::floor(room / mean_area(radius));
+    problems.push_back({"/bed/grains/count",
+                        "makes more grains than fit: " + text(grain_area(bed.grains), "m2") + " of discs in a box of " +
+                            text(box.width * box.height, "m2"),
+                        "at most " + text(most) + " of these radii in this box", ""});
+  }
+}
+
+void check_settling(const BedSpec& bed, Problems& problems) {
+  const auto& preparation = bed.preparation;
+  if (preparation.longest / preparation.contact.step > kMostSteps) {
+    problems.push_back({"/bed/preparation/contact/step", "makes more than 1e9 steps of the longest settling time",
+                        "at least " + text(preparation.longest / kMostSteps, "s"), ""});
+  }
+}
+
+void check_pile_shape(const pile::PileSpec& pile, const BedSpec& bed, Problems& problems) {
+  // Two of the largest grains pass between pile and wall on each side.
+  const double widest = (bed.domain.width - 8 * bed.grains.radius.max) / 2;
+  if (pile.radius >= widest) {
+    problems.push_back({"/pile/radius",
+                        "makes a pile of " + text(2 * pile.radius, "m") + " that is too wide for a box of " +
+                            text(bed.domain.width, "m"),
+                        widest > 0 ? "below " + text(widest, "m") : "no pile fits into this box", ""});
+    return;
+  }
+  if (const auto* cone = std::get_if<pile::ConicalTip>(&pile.tip)) {
+    const double length = pile.radius / std::tan(cone->apex_angle / 2);
+    if (length > bed.domain.height) {
+      const double sharpest = 2 * std::atan(pile.radius / bed.domain.height) * 180 / pi;
+      problems.push_back({"/pile/tip/conical/apex_angle",
+                          "makes a tip of " + text(length, "m") + ", longer than the box is high",
+                          "at least " + text(sharpest, "deg"), ""});
+    }
+  }
+}
+
+void check_pile_end(const pile::PileSpec& pile, const BedSpec& bed, std::optional<double> bed_height,
+                    Problems& problems) {
+  if (!pile.depth && !pile.duration) {
+    problems.push_back(
+        {"/pile/depth", "and duration are both null: the run would not end", "a depth, a duration, or both", ""});
+    return;
+  }
+
+  if (pile.depth && !pile.duration) {
+    if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&pile.driving)) {
+      // It starts above the highest grain under it: two grains above the mean surface are granted.
+      const double stroke = std::max(0.0, sine->speed) / (pi * sine->frequency);
+      const double needed = *pile.depth + 4 * bed.grains.radius.max;
+      if (stroke < needed) {
+        problems.push_back({"/pile/depth",
+                            "is never reached: the sine's stroke is " + text(stroke, "m") + ", and " +
+                                text(needed, "m") + " are needed from the start above the grains",
+                            "a smaller depth, or a duration", ""});
+        return;
+      }
+    } else if (mean_speed(pile.driving) <= 0) {
+      problems.push_back({driving_pointer(pile.driving, "speed"), "never reaches the depth, the only end of this run",
+                          "more than 0 m/s, or a duration", ""});
+      return;
+    }
+  }
+
+  if (bed_height && pile.depth && *pile.depth > *bed_height) {
+    problems.push_back({"/pile/depth", "is deeper than the bed, about " + text(*bed_height, "m") + " high",
+                        "at most " + text(*bed_height, "m"), ""});
+  } else if (bed_height && !pile.depth && motion(pile.driving, *pile.duration).down > *bed_height) {
+    problems.push_back({"/pile/duration",
+                        "takes the pile down by " + text(motion(pile.driving, *pile.duration).down, "m") +
+                            ", through a bed that is about " + text(*bed_height, "m") + " high",
+                        "a shorter duration, or a depth as the end", ""});
+  }
+}
+
+void check_pile_steps(const SceneSpec& scene, Problems& problems) {
+  const pile::PileSpec& pile = *scene.pile;
+  const double step = scene.contact.step;
+  const double time = duration(pile);
+  if (std::isfinite(time) && time / step > kMostSteps) {
+    const bool by_time = pile.duration && *pile.duration <= time;
+    problems.push_back({by_time ? "/pile/duration" : driving_pointer(pile.driving, "speed"),
+                        "makes a run of " + text(time, "s") + ", " + text(time / step) + " steps of " + text(step, "s"),
+                        "at most 1e9 steps", ""});
+  }
+
+  // A pile that passes a whole grain between two detections of contacts goes through it.
+  const double smallest = scene.bed.grains.radius.min;
+  if (const double speed = largest_speed(pile.driving); speed * step > smallest) {
+    problems.push_back(
+        {"/contact/step",
+         "lets the pile move by " + text(speed * step, "m") + " in one step, more than the smallest radius",
+         "at most " + text(smallest / speed, "s"), ""});
+  }
+
+  const auto check_frequency = [&](double frequency) {
+    if (frequency * step * kFewestStepsPerPeriod <= 1) return;
+    problems.push_back({driving_pointer(pile.driving, "frequency"),
+                        "has fewer than 10 steps of " + text(step, "s") + " per period",
+                        "at most " + text(1 / (kFewestStepsPerPeriod * step), "Hz"), ""});
+  };
+  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&pile.driving)) check_frequency(sine->frequency);
+  if (const auto* vibratory = std::get_if<pile::VibratoryDriving>(&pile.driving)) check_frequency(vibratory->frequency);
+}
+
+/// Depth that the pile does not pass [m].
+double deepest(const pile::PileSpec& pile) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double by_time = pile.duration ? motion(pile.driving, *pile.duration).down : kInfinity;
+  return std::min(pile.depth.value_or(kInfinity), by_time);
+}
+
+void check_frames(const std::vector<double>& frames, double deepest, Problems& problems) {
+  std::set<double> seen;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::string pointer = "/frames/" + std::to_string(i);
+    if (frames[i] > deepest) {
+      problems.push_back({pointer, "is deeper than the pile goes", "at most " + text(deepest, "m"), ""});
+    }
+    if (!seen.insert(frames[i]).second) problems.push_back({pointer, "is there twice", "each depth once", ""});
+  }
+}
+
+}  // namespace
+
+Problems validate(const SceneSpec& scene, std::optional<double> bed_height) {
+  Problems problems;
+  check_grains(scene.bed, problems);
+  check_settling(scene.bed, problems);
+  if (scene.pile) {
+    if (!bed_height && !from_file(scene.bed)) bed_height = estimated_height(scene.bed);
+    check_pile_shape(*scene.pile, scene.bed, problems);
+    check_pile_end(*scene.pile, scene.bed, bed_height, problems);
+    check_pile_steps(scene, problems);
+  }
+  return problems;
+}
+
+Problems validate(const RecordSpec& record, const SceneSpec& scene) {
+  Problems problems;
+  if (!scene.pile) return problems;
+  const pile::PileSpec& pile = *scene.pile;
+  const DomainSpec& box = scene.bed.domain;
+
+  if (record.frames.size() > kMostFrames) {
+    problems.push_back({"/frames", "has " + std::to_string(record.frames.size()) + " depths", "at most 10000", ""});
+  } else {
+    check_frames(record.frames, deepest(pile), problems);
+  }
+
+  if (const double time = duration(pile); std::isfinite(time)) {
+    const double path = motion(pile.driving, time).path;
+    if (path / record.travel > kMostRecords) {
+      problems.push_back({"/travel",
+                          "makes " + text(path / record.travel) + " records of " + text(path, "m") + " of travel",
+                          "at least " + text(path / kMostRecords, "m"), ""});
+    }
+  }
+
+  const double cells = (box.width / record.spacing) * (box.height / record.spacing);
+  if (cells > kMostCells) {
+    problems.push_back({"/spacing", "makes a grid of " + text(cells) + " cells",
+                        "at least " + text(std::sqrt(box.width * box.height / kMostCells), "m"), ""});
+  }
+  if (record.spacing > std::min(box.width, box.height)) {
+    problems.push_back(
+        {"/spacing", "is larger than the box", "at most " + text(std::min(box.width, box.height), "m"), ""});
+  }
+  return problems;
+}
+
+}  // namespace seapile::scene

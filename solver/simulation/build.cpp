@@ -1,0 +1,135 @@
+#include "solver/simulation/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "solver/grains/packing.h"
+#include "solver/pile/pile.h"
+
+namespace seapile::simulation {
+namespace {
+
+grains::Team team_of(const Execution& execution) {
+  using grains::InstructionSet;
+  InstructionSet set = InstructionSet::generic;
+  switch (execution.simd) {
+    case Simd::generic: break;
+    case Simd::avx2: set = InstructionSet::avx2; break;
+    case Simd::avx512: set = InstructionSet::avx512; break;
+    case Simd::best:
+      if (available(InstructionSet::avx2)) set = InstructionSet::avx2;
+      if (available(InstructionSet::avx512)) set = InstructionSet::avx512;
+  }
+  return {std::max(1, execution.threads), set};
+}
+
+grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& contact) {
+  grains::ContactLaw law;
+  law.gravity = bed.domain.gravity;
+  law.friction_grain = bed.grains.friction.grain;
+  law.friction_wall = bed.grains.friction.wall;
+  law.restitution = bed.grains.restitution;
+  law.step = contact.step;
+  law.substeps = static_cast<int>(contact.substeps);
+  law.stiffness = contact.stiffness;
+  law.damping = contact.damping;
+  return law;
+}
+
+Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contact, grains::Grains grains,
+                    const Execution& execution) {
+  Simulation sim;
+  sim.clock.dt = contact.step;
+  sim.box = {-bed.domain.width / 2, bed.domain.width / 2, 0};
+  sim.law = law_of(bed, contact);
+  sim.grains = std::move(grains);
+  if (contact.precision == grains::Precision::double_) sim.contacts.emplace<grains::ContactSystem<double>>();
+  std::visit([&](auto& system) { enclose(system, sim.grains); }, sim.contacts);
+  for (std::size_t i = 0; i < sim.grains.count(); ++i) sim.origin.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
+  sim.surface = grains::bed_surface({sim.grains.disc.data(), sim.grains.count()}, sim.box.left, sim.box.right);
+  sim.totals.feature.resize(2);
+  sim.team = team_of(execution);
+  return sim;
+}
+
+template <class T>
+const std::vector<T>& values(const std::vector<Array>& arrays, const std::string& name) {
+  for (const Array& array : arrays)
+    if (array.info.name == name)
+      if (const auto* held = std::get_if<std::vector<T>>(&array.values)) return *held;
+  throw std::invalid_argument("the bed has no array " + name + " of the expected type");
+}
+
+}  // namespace
+
+Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double friction, const Execution& execution) {
+  Simulation sim = enclosed(bed, bed.preparation.contact, std::move(grains), execution);
+  sim.law.friction_grain = friction;
+  return sim;
+}
+
+Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution) {
+  Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
+  if (static_cast<std::int64_t>(sim.grains.count()) != scene.bed.grains.count)
+    throw std::invalid_argument("the bed has " + std::to_string(sim.grains.count()) + " grains, the scene " +
+                                std::to_string(scene.bed.grains.count));
+  if (!scene.pile) return sim;
+
+  Pile& pile = sim.pile.emplace();
+  pile.spec = *scene.pile;
+  // Above the highest grain under it, by a hundredth of the smallest grain.
+  double highest = 0, smallest = scene.bed.grains.radius.max;
+  for (std::size_t i = 0; i < sim.grains.count(); ++i) {
+    const grains::Disc& d = sim.grains.disc[i];
+    smallest = std::min(smallest, d.radius);
+    if (std::abs(d.x) < pile.spec.radius + d.radius) highest = std::max(highest, d.y + d.radius);
+  }
+  pile.start = highest + 0.01 * smallest;
+  // The sleeve is longer than anything it can pass.
+  pile.body.outline = pile::outline(pile.spec, 2 * (scene.bed.domain.height + pile::tip_height(pile.spec)) + highest);
+  pile.body.friction = pile.spec.friction;
+  pile.body.position = {0, pile.start};
+  sim.gathering.position = pile.start;
+  return sim;
+}
+
+grains::Grains grains_of(const std::vector<Array>& arrays, double density) {
+  const auto& id = values<std::int64_t>(arrays, "grains/id");
+  const auto& position = values<double>(arrays, "grains/position");
+  const auto& radius = values<double>(arrays, "grains/radius");
+  if (position.size() != 2 * id.size() || radius.size() != id.size())
+    throw std::invalid_argument("the bed's arrays differ in length");
+  std::vector<grains::GivenGrain> given;
+  for (std::size_t k = 0; k < id.size(); ++k) given.push_back({id[k], position[2 * k], position[2 * k + 1], radius[k]});
+  return grains::arrange(std::move(given), density);
+}
+
+std::vector<Array> arrays_of(const grains::Grains& grains) {
+  std::vector<std::size_t> order(grains.count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return grains.id[a] < grains.id[b]; });
+  std::vector<std::int64_t> id;
+  std::vector<double> position, radius;
+  for (const std::size_t k : order) {
+    id.push_back(grains.id[k]);
+    position.insert(position.end(), {grains.disc[k].x, grains.disc[k].y});
+    radius.push_back(grains.disc[k].radius);
+  }
+  return {{{"grains/id", "-", "name of the grain", 1, Entity::grain}, std::move(id)},
+          {{"grains/position", "m", "place of the centre", 2, Entity::grain}, std::move(position)},
+          {{"grains/radius", "m", "radius", 1, Entity::grain}, std::move(radius)}};
+}
+
+const char* simd_in_use(Simd simd) {
+  switch (team_of({1, simd}).instructions) {
+    case grains::InstructionSet::avx2: return "avx2";
+    case grains::InstructionSet::avx512: return "avx512";
+    case grains::InstructionSet::generic: break;
+  }
+  return "generic";
+}
+
+}  // namespace seapile::simulation

@@ -1,0 +1,48 @@
+// What a run hands out: records along the way, frames at chosen depths, metrics at the end.
+#pragma once
+
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/simulation/frame.h"
+#include "solver/simulation/record.h"
+#include "solver/simulation/run.h"
+#include "solver/simulation/simulation.h"
+#include "solver/simulation/step.h"
+
+namespace seapile::simulation {
+
+/// Depth d of the tip below the initial bed surface [m].
+double depth(const Simulation& simulation);
+
+/// Adds a step to what the coming record will say.
+void gather(Simulation& simulation, const StepReport& report);
+
+/// Closes the record of the steps since the last one and begins the next.
+Record take_record(Simulation& simulation);
+
+/// Contact forces summed over the steps of a window; a frame shows their means.
+class ForceWindow {
+ public:
+  explicit ForceWindow(double asked_depth) : asked_(asked_depth) {}
+  /// Adds the impulses of the last step, which kept them.
+  void add(const Simulation& simulation);
+  /// The frame at the window's end.
+  Frame frame(const Simulation& simulation, double spacing, double height) const;
+
+ private:
+  struct Sum {
+    double normal = 0, tangential = 0;        // [N s/m]
+    double nx = 0, ny = 0, x = 0, y = 0;      // of the last step in which it touched
+  };
+  double asked_;
+  double time_ = 0;  // [s]
+  std::map<std::pair<std::int32_t, std::int32_t>, Sum> sum_;
+};
+
+/// Headline, fluctuation, depth bins and extremes of a drive's records (design README, Definitions).
+std::vector<Metric> drive_metrics(std::span<const Record> records, const pile::PileSpec& pile);
+
+}  // namespace seapile::simulation

@@ -1,0 +1,137 @@
+#include "solver/simulation/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "solver/pile/pile.h"
+#include "solver/simulation/build.h"
+#include "solver/simulation/observe.h"
+#include "solver/simulation/state.h"
+#include "solver/simulation/step.h"
+
+namespace seapile::simulation {
+namespace {
+
+constexpr int kTrialSteps = 100;  // between two states to which a run could go back
+
+/// When the run ends [s]: at its depth or its duration, whichever comes first.
+double end_time(const Simulation& sim, const pile::PileSpec& pile) {
+  double end = std::numeric_limits<double>::infinity();
+  if (pile.duration) end = *pile.duration;
+  if (pile.depth) {
+    const double way = *pile.depth - (sim.surface - sim.pile->start);
+    end = std::min(end, way > 0 ? pile::time_to_reach(pile.driving, way) : 0.0);
+  }
+  return end;
+}
+
+/// The frames still to be taken, in the order of the times at which their depths are first reached.
+struct FramePlan {
+  double begin;  ///< of the window [s]
+  double end;    ///< [s]
+  double depth;  ///< asked [m]
+};
+std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpec& record, const pile::PileSpec& pile, double end) {
+  std::vector<FramePlan> plan;
+  const double above = sim.surface - sim.pile->start;
+  for (const double depth : record.frames) {
+    const double reached = depth <= above ? 0 : pile::time_to_reach(pile.driving, depth - above);
+    // The frame at the depth where the run ends is taken with its last step.
+    const double at = std::min(reached, reached < end + sim.clock.dt ? end : reached);
+    if (!(at <= end)) continue;
+    const double window = std::max(record.window, sim.clock.dt);
+    plan.push_back({std::max(0.0, at - window), at, depth});
+  }
+  std::stable_sort(plan.begin(), plan.end(), [](const FramePlan& a, const FramePlan& b) { return a.end < b.end; });
+  return plan;
+}
+
+}  // namespace
+
+std::vector<NumericsVersion> numerics_versions() { return {{"grains", 1}, {"pile", 1}, {"bed", 1}, {"record", 1}}; }
+
+std::vector<Part> parts(const scene::SceneSpec& scene) {
+  const std::string dry = "the scene is dry: \"fluid\" is null";
+  return {{"grains", true, "the bed has " + std::to_string(scene.bed.grains.count) + " grains"},
+          {"walls", true, "the box holds the grains"},
+          {"pile", scene.pile.has_value(), scene.pile ? "the scene drives a pile" : "the scene is the bed alone"},
+          {"restitution", scene.bed.grains.restitution > 0,
+           scene.bed.grains.restitution > 0 ? "the grains rebound" : "the coefficient of restitution is 0"},
+          {"mesh", false, dry},
+          {"fluid", false, dry},
+          {"free_surface", false, dry}};
+}
+
+RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed, const Execution& execution,
+              const std::vector<Array>& resume_from, const std::vector<Record>& records_so_far, const RunHooks& hooks) {
+  if (!scene.pile) throw std::invalid_argument("run: the scene has no pile");
+  Simulation sim = build(scene, bed, execution);
+  if (!resume_from.empty()) restore(sim, resume_from);
+
+  const double end = end_time(sim, *scene.pile);
+  const std::vector<FramePlan> frames = plan_frames(sim, record, *scene.pile, end);
+  std::size_t next_frame = 0;
+  const double now = sim.clock.time(), half = 1e-6 * sim.clock.dt;  // what rounding may do
+  while (next_frame < frames.size() && frames[next_frame].end <= now - half) ++next_frame;
+
+  std::vector<Record> records = records_so_far;
+  std::vector<ForceWindow> windows;  // of the frames whose window is open, from next_frame on
+  std::optional<Trial> trial;
+  RunResult result;
+
+  while (result.outcome == Outcome::completed && sim.clock.time() < end - half) {
+    // A state to go back to; windows are no part of it, so it is taken while none is open.
+    if (!trial || (windows.empty() && sim.clock.step % kTrialSteps == 0)) trial.emplace(sim);
+    while (next_frame + windows.size() < frames.size() && frames[next_frame + windows.size()].begin <= sim.clock.time() + half)
+      windows.emplace_back(frames[next_frame + windows.size()].depth);
+
+    const StepReport report = step(sim, !windows.empty());
+    if (std::string why = objection(sim, report); !why.empty()) {
+      result.outcome = Outcome::diverged;
+      result.reason = std::move(why) + " (at t = " + std::to_string(sim.clock.time()) + " s)";
+      trial->reject(sim);
+      if (hooks.checkpoint) hooks.checkpoint(trial->start());
+      break;
+    }
+    gather(sim, report);
+    for (ForceWindow& window : windows) window.add(sim);
+
+    const bool last = sim.clock.time() >= end - half;
+    while (!windows.empty() && (last || frames[next_frame].end <= sim.clock.time() + half)) {
+      if (hooks.frame) hooks.frame(windows.front().frame(sim, record.spacing, scene.bed.domain.height));
+      windows.erase(windows.begin());
+      ++next_frame;
+    }
+
+    if (!last && std::floor(sim.pile->travel / record.travel) <= std::floor(sim.gathering.travel / record.travel)) continue;
+    records.push_back(take_record(sim));
+    if (hooks.record) hooks.record(records.back());
+    if (hooks.progress) hooks.progress({sim.clock.time(), std::min(1.0, sim.clock.time() / end), depth(sim)});
+    if (last || !windows.empty()) continue;
+    const bool stop = hooks.stop && hooks.stop();
+    if (stop || (hooks.checkpoint_due && hooks.checkpoint_due()))
+      if (hooks.checkpoint) hooks.checkpoint(snapshot(sim));
+    if (stop) {
+      result.outcome = Outcome::stopped;
+      result.reason = "stopped on request at t = " + std::to_string(sim.clock.time()) + " s";
+    }
+  }
+
+  result.time = sim.clock.time();
+  result.depth = depth(sim);
+  result.state_hash = state_hash(sim);
+  result.metrics = drive_metrics(records, *scene.pile);
+  result.metrics.push_back({"steps", static_cast<double>(sim.clock.step), "-", "steps done"});
+  std::visit(
+      [&](const auto& system) {
+        result.metrics.push_back({"rebuilds", static_cast<double>(system.rebuilds), "-", "neighbour lists made"});
+      },
+      sim.contacts);
+  for (const auto& e : sim.profile.entries()) result.profile.push_back({e.part, e.seconds, e.calls});
+  return result;
+}
+
+}  // namespace seapile::simulation

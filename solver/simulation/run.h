@@ -1,0 +1,105 @@
+// The time loop, and everything a worker process needs to know of the solver.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/scene/spec.h"
+#include "solver/simulation/array.h"
+#include "solver/simulation/execution.h"
+#include "solver/simulation/frame.h"
+#include "solver/simulation/record.h"
+
+namespace seapile::simulation {
+
+struct Simulation;
+
+/// One integer per module, raised by hand in the change that moves its numbers.
+struct NumericsVersion {
+  std::string module;
+  int version;
+};
+std::vector<NumericsVersion> numerics_versions();
+
+/// A part of the solver, and whether this scene was built with it.
+struct Part {
+  std::string name;    ///< "grains", "walls", "pile", "mesh", "fluid", "free_surface"
+  bool built = false;
+  std::string reason;  ///< why it was built, or left out
+};
+std::vector<Part> parts(const scene::SceneSpec& scene);
+
+/// A named number that a finished case is known by.
+struct Metric {
+  std::string name;
+  double value;
+  std::string unit;
+  std::string meaning;
+};
+
+/// What the time went into.
+struct ProfileEntry {
+  std::string part;
+  double seconds;
+  std::int64_t calls;
+};
+
+/// A settled bed: what every case that is built on it starts from.
+struct Bed {
+  std::vector<Array> grains;   ///< "grains/id", "grains/position", "grains/radius"; rows in the order of the ids
+  std::vector<Metric> metrics; ///< solid_fraction, coordination_number, surface, settling_friction, settling_time, ...
+  std::vector<double> porosity_profile;  ///< porosity of horizontal slices of `profile_spacing` from the base up [-]
+  double profile_spacing = 0.1;          ///< [m]
+  std::vector<Record> records;           ///< one per 10 ms of settling
+  std::vector<ProfileEntry> profile;
+};
+
+/// How far a run is; called at each record.
+struct Progress {
+  double time = 0;      ///< simulated [s]
+  double fraction = 0;  ///< of the whole, 0..1, by the case's own end
+  double depth = 0;     ///< [m]; NaN for a bed
+};
+
+/// Prepares a bed: drops, settles, and where a solid fraction is asked for, searches the friction that gives it.
+/// `given`: grains read from the bed's file ("grains/id", "grains/position", "grains/radius"; rows by rising id) to be
+/// settled where they are; empty: the grains are drawn and dropped at random.
+/// Throws std::runtime_error with one sentence when it cannot be settled or the target not be reached.
+Bed prepare_bed(const scene::BedSpec& bed, const std::vector<Array>& given, const Execution& execution,
+                const std::function<void(const Progress&)>& progress);
+
+/// What a run hands out while it runs, and what it is asked.
+struct RunHooks {
+  std::function<void(const Record&)> record;
+  std::function<void(const Frame&)> frame;
+  std::function<void(const Progress&)> progress;
+  /// Asked after each record: true seals a checkpoint now.
+  std::function<bool()> checkpoint_due;
+  /// The state to be sealed, from snapshot(). Writing it changes no bit of what follows.
+  std::function<void(const std::vector<Array>&)> checkpoint;
+  /// Asked after each record: true stops the run, which is then `stopped` and resumable from a last checkpoint.
+  std::function<bool()> stop;
+};
+
+enum class Outcome { completed, diverged, stopped };
+
+struct RunResult {
+  Outcome outcome = Outcome::completed;
+  std::string reason;  ///< one sentence; empty when completed
+  double time = 0;     ///< reached [s]
+  double depth = 0;    ///< reached [m]
+  std::uint64_t state_hash = 0;
+  std::vector<Metric> metrics;  ///< headline q_c, fluctuation, depth bins, work, largest overlap, steps, rebuilds, ...
+  std::vector<ProfileEntry> profile;
+};
+
+/// Drives the pile of `scene` into `bed`. `resume_from`: a checkpoint's state, or empty to start. The records and frames
+/// handed out after a resume are those after the checkpoint, bit for bit. `records_so_far` are the records before the
+/// checkpoint (the metrics need them).
+RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed, const Execution& execution,
+              const std::vector<Array>& resume_from, const std::vector<Record>& records_so_far, const RunHooks& hooks);
+
+}  // namespace seapile::simulation

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "solver/base/profile.h"
+#include "solver/base/vec2.h"
+#include "solver/grains/contact_solver.h"
+#include "solver/grains/grains.h"
+#include "solver/grains/rigid_body.h"
+#include "solver/scene/spec.h"
+#include "solver/simulation/execution.h"
+
+namespace seapile::simulation {
+
+/// Time counted in steps, so that no rounding accumulates.
+struct Clock {
+  std::int64_t step = 0;
+  double dt = 0;  ///< [s]
+  double time() const { return static_cast<double>(step) * dt; }
+};
+
+/// The pile in the run: a body of the contact problem with a prescribed motion.
+struct Pile {
+  pile::PileSpec spec;
+  grains::RigidBody body;
+  double start = 0;   ///< height of the tip at t = 0 [m]
+  double travel = 0;  ///< length of its path so far [m]
+};
+
+/// What has been gathered since the last record; part of the state, so that a resumed run writes the same records.
+struct Gathering {
+  double time = 0;            ///< of the last record [s]
+  double travel = 0;          ///< of the pile at the last record [m]
+  double position = 0;        ///< height of the tip at the last record [m]
+  double residual = 0;        ///< sum of squared residuals of the steps since [m2/s2]
+  double overlap = 0;         ///< largest overlap of a step since [-]
+  std::int64_t steps = 0;     ///< since the last record
+};
+
+/// One run: everything that a step reads and writes. Movable; no pointer into itself.
+struct Simulation {
+  Clock clock;
+  grains::Box box;
+  grains::ContactLaw law;
+  grains::Grains grains;
+  std::variant<grains::ContactSystem<float>, grains::ContactSystem<double>> contacts;
+  std::optional<Pile> pile;              ///< absent: a bed
+  grains::ContactTotals totals;          ///< impulses since the last record; work since the start
+  Gathering gathering;
+  double surface = 0;                    ///< of the initial bed [m]; depths count from here
+  std::vector<base::Vec2> origin;        ///< places at the start [m], (count)
+
+  grains::Team team;                     ///< how it is executed: no part of the state
+  base::Profile profile;
+};
+
+}  // namespace seapile::simulation

@@ -1,0 +1,65 @@
+// One time step: Algorithm 1 of the thesis (ch. 6.2), for what a dry scene owns of it.
+//
+// Line 2, the pile's motion, comes first: within a step the pile is where its prescribed path has it at each sub-step,
+// and the grains meet it there (Deviation from the printed order: design decision on 8.20, docs/formulation.md 1). A dry
+// scene has no lines 3 to 8: there is no fluid whose domain could follow.
+#include "solver/simulation/step.h"
+
+#include <cmath>
+
+#include "solver/pile/pile.h"
+#include "solver/simulation/state.h"
+
+namespace seapile::simulation {
+namespace {
+
+/// Downward path of the pile at the end of each sub-step, counted from the start of the step [m].
+std::vector<double> path_in_step(const Pile& pile, const Clock& clock, int substeps) {
+  std::vector<double> path(substeps);
+  const double start = pile::path(pile.spec.driving, clock.time());
+  const double h = clock.dt / substeps;
+  for (int k = 0; k < substeps; ++k)
+    path[k] = pile::path(pile.spec.driving, clock.time() + (k + 1) * h) - start;
+  return path;
+}
+
+}  // namespace
+
+StepReport step(Simulation& sim, bool keep_impulses) {
+  StepReport report;
+
+  // 2. Pile position -> d.
+  std::vector<double> path;
+  if (sim.pile) path = path_in_step(*sim.pile, sim.clock, sim.law.substeps);
+
+  // 1. Time integration of the grains against walls and pile -> x_p, v_p, impulses.
+  grains::RigidBody* body = sim.pile ? &sim.pile->body : nullptr;
+  report.contact = std::visit(
+      [&](auto& system) {
+        return integrate(system, sim.grains, sim.box, sim.law, body, path, keep_impulses, sim.totals, sim.team, sim.profile);
+      },
+      sim.contacts);
+
+  // 9. t = t + dt; the pile stands where its path has it at that time, without accumulated rounding.
+  ++sim.clock.step;
+  if (sim.pile) {
+    sim.pile->body.position.y = sim.pile->start - pile::path(sim.pile->spec.driving, sim.clock.time());
+    sim.pile->travel += std::abs(path.back());
+  }
+  return report;
+}
+
+std::string objection(const Simulation& sim, const StepReport& report) {
+  if (!report.contact.finite) return "a grain's place is not a number";
+  double smallest = 0;
+  std::visit([&](const auto& system) { smallest = system.smallest_radius; }, sim.contacts);
+  if (report.contact.longest_path > smallest)
+    return "a grain moved by more than the smallest radius within a step: reduce the step";
+  return {};
+}
+
+Trial::Trial(const Simulation& simulation) : start_(snapshot(simulation)) {}
+
+void Trial::reject(Simulation& simulation) const { restore(simulation, start_); }
+
+}  // namespace seapile::simulation

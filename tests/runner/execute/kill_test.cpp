@@ -1,0 +1,259 @@
+// What is left when processes are killed: kill -9 of workers and of the runner at random moments, stops, two runners.
+//
+// SEAPILE_KILLS sets how often each kind of death is tried (default 10), SEAPILE_SEED when.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "tests/runner/commands/program.h"
+
+namespace seapile::execute {
+namespace {
+
+namespace fs = std::filesystem;
+using commands::content;
+using commands::Finished;
+using commands::small_study;
+using commands::wait_for;
+using commands::Workplace;
+using testing::AnyOf;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+// A checkpoint at every record, and few enough of them.
+const std::vector<std::string> kCommand = {"small.json", "--checkpoint", "0", "--set", "record.travel=0.002"};
+
+int number_from(const char* variable, int otherwise) {
+  const char* text = std::getenv(variable);
+  return text != nullptr ? std::atoi(text) : otherwise;
+}
+
+/// Processes that work in a place: the runner and its workers, whoever their parent is now.
+std::vector<pid_t> processes_in(const Workplace& place) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::error_code gone;
+    if (fs::read_symlink(entry.path() / "cwd", gone) == place.folder()) found.push_back(std::stoi(name));
+  }
+  return found;
+}
+
+std::vector<pid_t> workers_of(const Workplace& place, pid_t runner) {
+  std::vector<pid_t> workers = processes_in(place);
+  std::erase(workers, runner);
+  return workers;
+}
+
+/// True once no process works there any more.
+bool deserted(const Workplace& place) {
+  for (int i = 0; i < 500; ++i) {
+    if (processes_in(place).empty()) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+std::vector<fs::path> manifests(const Workplace& place) {
+  std::vector<fs::path> found;
+  if (!fs::exists(place.results())) return found;
+  for (const auto& entry : fs::recursive_directory_iterator(place.results())) {
+    if (entry.path().filename() == "manifest.json") found.push_back(entry.path());
+  }
+  return found;
+}
+
+/// Waits until a file of that name is somewhere below the results.
+bool appears(const Workplace& place, const std::string& name) {
+  for (int i = 0; i < 60'000; ++i) {
+    std::error_code changing;
+    for (fs::recursive_directory_iterator entry(place.results(), changing), end; entry != end && !changing;
+         entry.increment(changing)) {
+      if (entry->path().filename() == name) return true;
+    }
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+/// Waits until the program has written a word to standard error.
+bool says(const Workplace& place, const std::string& word) {
+  for (int i = 0; i < 60'000; ++i) {
+    if (content(place.folder() / "error").find(word) != std::string::npos) return true;
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+/// State hash by case id, and how many complete runs there are.
+std::map<std::string, std::string> hashes(const Workplace& place) {
+  std::map<std::string, std::string> result;
+  for (const fs::path& file : manifests(place)) {
+    const auto manifest = nlohmann::json::parse(content(file));
+    result[file.parent_path().parent_path().filename().string()] = manifest.at("result").at("state_hash").dump();
+  }
+  return result;
+}
+
+int attempts(const Workplace& place) {
+  int most = 0;
+  for (const fs::path& file : manifests(place)) {
+    most = std::max(most, nlohmann::json::parse(content(file)).at("provenance").at("attempts").get<int>());
+  }
+  return most;
+}
+
+/// Whatever happened: what is listed is whole.
+void expect_only_whole_runs(const Workplace& place) {
+  const Finished verified = place.run({"verify"});
+  EXPECT_THAT(verified.exit_code, AnyOf(0, 4)) << verified.out << verified.error;
+  const Finished listed = place.run({"query", "--format", "json"});
+  if (listed.exit_code != 0) return;  // killed before the first case was listed
+  for (const auto& row : nlohmann::json::parse(listed.out).at("rows")) {
+    EXPECT_EQ(row.at("outcome"), "completed");
+    EXPECT_EQ(place.run({"show", row.at("case")}).exit_code, 0);
+  }
+}
+
+struct KillTest : testing::Test {
+  static void SetUpTestSuite() {
+    undisturbed = new Workplace;
+    undisturbed->write("small.json", small_study("small"));
+    const auto start = std::chrono::steady_clock::now();
+    const Finished finished = undisturbed->run(kCommand);
+    duration = std::chrono::steady_clock::now() - start;
+    ASSERT_EQ(finished.exit_code, 0) << finished.error;
+    expected = hashes(*undisturbed);
+    ASSERT_EQ(expected.size(), 3u);
+  }
+  static void TearDownTestSuite() { delete undisturbed; }
+
+  /// A moment of the study, as a random part of what it takes undisturbed.
+  std::chrono::duration<double> random_moment() {
+    return duration * std::uniform_real_distribution<double>(0, 1.1)(random);
+  }
+
+  void expect_finished_like_undisturbed(const Workplace& place) {
+    EXPECT_EQ(hashes(place), expected);
+    EXPECT_EQ(manifests(place).size(), expected.size()) << "a case was done twice";
+    expect_only_whole_runs(place);
+    const Finished again = place.run(kCommand);
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_THAT(again.error, HasSubstr("nothing to run"));
+  }
+
+  const int kills = number_from("SEAPILE_KILLS", 10);
+  std::mt19937 random{static_cast<unsigned>(number_from("SEAPILE_SEED", 1))};
+  static Workplace* undisturbed;
+  static std::chrono::duration<double> duration;
+  static std::map<std::string, std::string> expected;
+};
+Workplace* KillTest::undisturbed;
+std::chrono::duration<double> KillTest::duration;
+std::map<std::string, std::string> KillTest::expected;
+
+TEST_F(KillTest, AKilledWorkerIsContinuedToTheSameBits) {
+  int hit = 0;
+  for (int i = 0; i < kills; ++i) {
+    const Workplace place;
+    place.write("small.json", small_study("small"));
+    const pid_t runner = place.start(kCommand);
+    std::this_thread::sleep_for(random_moment());
+    const auto workers = workers_of(place, runner);
+    if (!workers.empty()) {
+      ::kill(workers[random() % workers.size()], SIGKILL);
+      ++hit;
+    }
+    EXPECT_EQ(wait_for(runner), 0) << content(place.folder() / "error");
+    EXPECT_TRUE(deserted(place));
+    expect_finished_like_undisturbed(place);
+  }
+  EXPECT_GT(hit, 0) << "no worker was ever met";
+}
+
+TEST_F(KillTest, AKilledRunnerLeavesNoWorkerAndTheSameCommandFinishes) {
+  for (int i = 0; i < kills; ++i) {
+    const Workplace place;
+    place.write("small.json", small_study("small"));
+    for (int death = 0; death < 3; ++death) {
+      const pid_t runner = place.start(kCommand);
+      std::this_thread::sleep_for(random_moment() / 2);
+      ::kill(runner, SIGKILL);
+      wait_for(runner);
+      EXPECT_TRUE(deserted(place)) << "a worker outlived its runner";
+      expect_only_whole_runs(place);
+    }
+    const Finished finished = place.run(kCommand);
+    EXPECT_EQ(finished.exit_code, 0) << finished.error;
+    expect_finished_like_undisturbed(place);
+  }
+}
+
+TEST_F(KillTest, AStoppedStudyIsContinuedFromItsCheckpoints) {
+  for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 75)}) {
+    const Workplace place;
+    place.write("small.json", small_study("small"));
+    for (int stop = 0; stop < 3; ++stop) {
+      const pid_t runner = place.start(kCommand);
+      ASSERT_TRUE(appears(place, "b.h5"));
+      ASSERT_TRUE(says(place, "started"));
+      ::kill(runner, signal);
+      EXPECT_EQ(wait_for(runner), code) << content(place.folder() / "error");
+      EXPECT_THAT(content(place.folder() / "error"), HasSubstr("the same command continues"));
+      EXPECT_TRUE(deserted(place));
+      expect_only_whole_runs(place);
+    }
+    const Finished finished = place.run(kCommand);
+    EXPECT_EQ(finished.exit_code, 0) << finished.error;
+    EXPECT_THAT(finished.error, HasSubstr("was interrupted after a checkpoint"));
+    expect_finished_like_undisturbed(place);
+    EXPECT_GT(attempts(place), 1);
+  }
+}
+
+TEST_F(KillTest, ASecondInterruptDoesNotWait) {
+  const Workplace place;
+  place.write("small.json", small_study("small"));
+  const pid_t runner = place.start(kCommand);
+  ASSERT_TRUE(appears(place, "a.h5"));
+  ::kill(runner, SIGINT);
+  ::kill(runner, SIGINT);
+  EXPECT_EQ(wait_for(runner), 130);
+  EXPECT_TRUE(deserted(place));
+  expect_only_whole_runs(place);
+  EXPECT_EQ(place.run(kCommand).exit_code, 0);
+  expect_finished_like_undisturbed(place);
+}
+
+TEST_F(KillTest, AWorkerThatIsAskedToStopSealsACheckpointAndTheRunnerSaysSo) {
+  const Workplace place;
+  place.write("small.json", small_study("small"));
+  const pid_t runner = place.start(kCommand);
+  ASSERT_TRUE(appears(place, "a.h5"));
+  for (const pid_t worker : workers_of(place, runner)) ::kill(worker, SIGUSR1);
+  EXPECT_EQ(wait_for(runner), 75) << content(place.folder() / "error");
+  EXPECT_THAT(content(place.folder() / "error"), HasSubstr("stopped at a checkpoint"));
+  EXPECT_EQ(place.run(kCommand).exit_code, 0);
+  expect_finished_like_undisturbed(place);
+}
+
+TEST_F(KillTest, TwoRunnersDoEveryCaseOnce) {
+  const Workplace place;
+  place.write("small.json", small_study("small"));
+  const pid_t first = place.start(kCommand), second = place.start(kCommand);
+  EXPECT_EQ(wait_for(first), 0);
+  EXPECT_EQ(wait_for(second), 0);
+  expect_finished_like_undisturbed(place);
+}
+
+}  // namespace
+}  // namespace seapile::execute

@@ -1,0 +1,227 @@
+#include "runner/execute/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/runner/execute/fake_study.h"
+
+namespace seapile::execute {
+namespace {
+
+using fake::FakeDisk;
+using fake::kNumerics;
+using simulation::Outcome;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct PlanTest : testing::Test {
+  FakeDisk disk;
+  study::Study study = fake::make_study({{"flat", "bed"}, {"cone", "bed"}});
+
+  Plan plan(const std::vector<simulation::NumericsVersion>& numerics = kNumerics) {
+    return make_plan(study, numerics, disk.look());
+  }
+  void complete_all() {
+    disk.complete_bed("bed");
+    disk.complete_drive("flat");
+    disk.complete_drive("cone");
+  }
+};
+
+std::vector<std::string> ids(const Plan& plan) {
+  std::vector<std::string> ids;
+  for (const Task& task : plan.tasks) ids.push_back(task.id);
+  return ids;
+}
+
+TEST_F(PlanTest, OnAnEmptyDiskEveryCaseIsRunAndBedsComeFirstAndOnce) {
+  study = fake::make_study({{"a", "x"}, {"b", "x"}, {"c", "y"}, {"d", "x"}});
+  const Plan all = plan();
+  EXPECT_THAT(ids(all), ElementsAre("x", "y", "a", "b", "c", "d"));
+  for (const Task& task : all.tasks) {
+    EXPECT_EQ(task.decision.action, Action::run);
+    EXPECT_EQ(task.decision.reason, "never run");
+  }
+  EXPECT_EQ(fake::task(all, "c").bed, 1u);
+  EXPECT_EQ(fake::task(all, "d").bed, 0u);
+}
+
+TEST_F(PlanTest, ABedThatIsACaseOfItsOwnIsNotPlannedTwice) {
+  study = fake::make_study({{"bed", "bed"}, {"flat", "bed"}});
+  EXPECT_THAT(ids(plan()), ElementsAre("bed", "flat"));
+}
+
+TEST_F(PlanTest, WhatIsCompletedWithTodaysNumericsIsFresh) {
+  complete_all();
+  for (const Task& task : plan().tasks) {
+    EXPECT_EQ(task.decision.action, Action::fresh) << task.id;
+    EXPECT_THAT(task.decision.reason, HasSubstr("grains 1, pile 1"));
+    EXPECT_EQ(task.decision.run, "0001");
+  }
+}
+
+TEST_F(PlanTest, MovedNumericsRunEverythingAgainAndSaySo) {
+  complete_all();
+  const Plan moved = plan({{"grains", 2}, {"pile", 1}});
+  for (const Task& task : moved.tasks) EXPECT_EQ(task.decision.action, Action::run) << task.id;
+  EXPECT_EQ(fake::task(moved, "flat").decision.reason, "numerics of grains 1 -> 2");
+  EXPECT_EQ(plan({{"grains", 1}, {"pile", 1}, {"mesh", 1}}).tasks[0].decision.reason, "numerics of mesh none -> 1");
+  EXPECT_EQ(plan({{"grains", 1}}).tasks[0].decision.reason, "numerics of pile 1 -> none");
+}
+
+TEST_F(PlanTest, ADivergedRunIsRunAgainWithItsReason) {
+  complete_all();
+  disk.histories["flat"].past->outcome = Outcome::diverged;
+  disk.histories["flat"].past->reason = "a grain left the box";
+  const Plan all = plan();
+  EXPECT_EQ(fake::task(all, "flat").decision.action, Action::run);
+  EXPECT_EQ(fake::task(all, "flat").decision.reason, "last run diverged: a grain left the box");
+  EXPECT_EQ(fake::task(all, "cone").decision.action, Action::fresh);
+}
+
+TEST_F(PlanTest, ADamagedRunIsNotFresh) {
+  complete_all();
+  disk.histories["cone"].past->damage = "run 0001 is damaged: series.h5 is missing";
+  EXPECT_EQ(fake::task(plan(), "cone").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "cone").decision.reason, "run 0001 is damaged: series.h5 is missing");
+}
+
+TEST_F(PlanTest, AMissingFrameIsNamed) {
+  complete_all();
+  study.record.frames = {0, 0.6, 0.7};
+  EXPECT_EQ(fake::task(plan(), "flat").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "flat").decision.reason, "frame at 0.7 m not recorded");
+  EXPECT_EQ(fake::task(plan(), "bed").decision.action, Action::fresh);
+}
+
+TEST_F(PlanTest, FewerFramesAreCovered) {
+  complete_all();
+  study.record.frames = {0.6};
+  EXPECT_EQ(fake::task(plan(), "flat").decision.action, Action::fresh);
+}
+
+TEST_F(PlanTest, AnotherRhythmWindowOrGridIsNotCovered) {
+  const scene::RecordSpec have;
+  scene::RecordSpec travel = have, window = have, spacing = have;
+  travel.travel *= 2;
+  window.window *= 2;
+  spacing.spacing *= 2;
+  EXPECT_EQ(lacking(have, have), "");
+  EXPECT_THAT(lacking(have, travel), HasSubstr("travel between records"));
+  EXPECT_THAT(lacking(have, window), HasSubstr("window"));
+  EXPECT_THAT(lacking(have, spacing), HasSubstr("grid spacing"));
+}
+
+InterruptedRun interrupted_run() { return {"0001", true, kNumerics, scene::RecordSpec{}, "0001"}; }
+
+TEST_F(PlanTest, AnInterruptedRunWithACheckpointContinues) {
+  disk.complete_bed("bed");
+  disk.histories["flat"].interrupted = interrupted_run();
+  const Decision decision = fake::task(plan(), "flat").decision;
+  EXPECT_EQ(decision.action, Action::resume);
+  EXPECT_EQ(decision.run, "0001");
+}
+
+TEST_F(PlanTest, WithoutACheckpointTheFolderIsUsedAgain) {
+  disk.complete_bed("bed");
+  disk.histories["flat"].interrupted = interrupted_run();
+  disk.histories["flat"].interrupted->checkpoint = false;
+  const Decision decision = fake::task(plan(), "flat").decision;
+  EXPECT_EQ(decision.action, Action::run);
+  EXPECT_EQ(decision.reason, "interrupted before its first checkpoint");
+  EXPECT_EQ(decision.run, "0001");
+}
+
+TEST_F(PlanTest, AnInterruptedRunOfOtherNumericsRecordOrBedDoesNotContinue) {
+  disk.complete_bed("bed");
+  const auto decide_with = [&](auto change) {
+    disk.histories["flat"].interrupted = interrupted_run();
+    change(*disk.histories["flat"].interrupted);
+    return fake::task(plan(), "flat").decision;
+  };
+  const Decision numerics = decide_with([](InterruptedRun& run) { run.numerics = {{"grains", 0}, {"pile", 1}}; });
+  EXPECT_EQ(numerics.action, Action::run);
+  EXPECT_EQ(numerics.reason, "interrupted, since then numerics of grains 0 -> 1");
+  EXPECT_EQ(numerics.run, "");
+  EXPECT_EQ(decide_with([](InterruptedRun& run) { run.record->travel = 1; }).action, Action::run);
+  EXPECT_EQ(decide_with([](InterruptedRun& run) { run.bed_run = "0007"; }).action, Action::run);
+}
+
+TEST_F(PlanTest, AStaleRunWithANewerInterruptedOneContinuesThatOne) {
+  complete_all();
+  disk.histories["flat"].past->numerics = {{"grains", 0}, {"pile", 1}};
+  disk.histories["flat"].interrupted = interrupted_run();
+  disk.histories["flat"].interrupted->run = "0002";
+  EXPECT_EQ(fake::task(plan(), "flat").decision.action, Action::resume);
+  EXPECT_EQ(fake::task(plan(), "flat").decision.run, "0002");
+}
+
+TEST_F(PlanTest, ABedThatWasRunAgainMakesItsDrivesStale) {
+  complete_all();
+  disk.complete_bed("bed", "0002");
+  EXPECT_EQ(fake::task(plan(), "flat").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "flat").decision.reason, "bed newly computed (run 0002)");
+}
+
+TEST_F(PlanTest, ALostBedIsNobodysConcernWhileItsDrivesAreFresh) {
+  complete_all();
+  disk.histories.erase("bed");
+  EXPECT_THAT(ids(plan()), ElementsAre("flat", "cone"));
+  for (const Task& task : plan().tasks) EXPECT_EQ(task.decision.action, Action::fresh);
+}
+
+TEST_F(PlanTest, ALostBedIsComputedForANewDriveAndTheOldDriveStaysFresh) {
+  complete_all();
+  disk.histories.erase("bed");
+  disk.histories.erase("cone");
+  EXPECT_EQ(fake::task(plan(), "bed").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "cone").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "flat").decision.action, Action::fresh);  // the bed will be run 0001 again
+}
+
+TEST_F(PlanTest, ADamagedBedThatOneDriveNeedsIsNewToAllOfThem) {
+  complete_all();
+  disk.histories["bed"].past->damage = "run 0001 is damaged: bed.h5 is missing";
+  EXPECT_THAT(ids(plan()), ElementsAre("flat", "cone"));  // nobody needs it
+  disk.histories.erase("cone");
+  EXPECT_EQ(fake::task(plan(), "bed").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "flat").decision.action, Action::run);
+  EXPECT_EQ(fake::task(plan(), "flat").decision.reason, "bed newly computed");
+}
+
+TEST_F(PlanTest, AfterThePlanIsCarriedOutASecondPlanRunsNothing) {
+  // Whatever was on the disk: carrying out what was decided makes everything fresh.
+  complete_all();
+  disk.histories["bed"].past->damage = "lost";
+  disk.histories.erase("cone");
+  for (const Task& task : plan().tasks) {
+    const Decision& decision = task.decision;
+    if (decision.action == Action::fresh) continue;
+    const std::string run = disk.histories[task.id].past ? "0002" : "0001";
+    if (task.kind == Kind::bed) {
+      disk.complete_bed(task.id, run);
+    } else {
+      disk.complete_drive(task.id, run, disk.histories["bed"].past->run);
+    }
+  }
+  for (const Task& task : plan().tasks) EXPECT_EQ(task.decision.action, Action::fresh) << task.id;
+}
+
+TEST_F(PlanTest, ThreadsAreForCasesWithGrainsEnough) {
+  study.cases[0].scene.bed.grains.count = 150;
+  study.cases[1].scene.bed.grains.count = 4 * kGrainsPerThread;
+  EXPECT_EQ(fake::task(plan(), "flat").most_threads, 1);
+  EXPECT_EQ(fake::task(plan(), "cone").most_threads, 4);
+}
+
+TEST_F(PlanTest, TheDescriptionNamesCasesOrCountsThem) {
+  EXPECT_THAT(describe(plan()), ElementsAre(HasSubstr("bed bed: never run"), HasSubstr("case=flat: never run"),
+                                            HasSubstr("case=cone: never run")));
+  std::vector<std::pair<std::string, std::string>> many;
+  for (int i = 0; i < 50; ++i) many.emplace_back(std::to_string(i), "bed");
+  study = fake::make_study(many);
+  EXPECT_THAT(describe(plan()), ElementsAre(HasSubstr("51 cases: never run")));
+}
+
+}  // namespace
+}  // namespace seapile::execute

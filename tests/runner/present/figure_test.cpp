@@ -1,0 +1,131 @@
+#include "runner/present/figure.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <set>
+
+#include "runner/store/run_folder.h"
+
+namespace seapile::present {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+/// q_c = 1000 Pa times the depth in bins, one record per half millimetre.
+ResistanceCurve ramp(double deepest) {
+  ResistanceCurve curve;
+  for (int i = -200; i * 5e-4 <= deepest + 1e-9; ++i) {
+    curve.depth.push_back(i * 5e-4);
+    curve.resistance.push_back(1000 * i * 5e-4 / kBinWidth);
+  }
+  return curve;
+}
+
+struct FigureTest : testing::Test {
+  fs::path folder = fs::temp_directory_path() / ("figure_test_" + std::to_string(::getpid()));
+  FigureTest() { fs::create_directories(folder); }
+  ~FigureTest() override { fs::remove_all(folder); }
+  static std::string content(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+};
+
+TEST(BinMeans, AreMeansOverFiveCentimetresBelowTheSurface) {
+  const auto means = bin_means(ramp(0.2));
+  ASSERT_EQ(means.size(), 4u);
+  for (std::size_t bin = 0; bin < 4; ++bin) {
+    EXPECT_NEAR(means[bin].first, (static_cast<double>(bin) + 0.5) * 0.05, 1e-12);
+    // The records end at 0.5, 1, ..., 50 mm of the bin, so their mean lies a quarter millimetre below its middle.
+    EXPECT_NEAR(means[bin].second, 1000 * (static_cast<double>(bin) + 0.505), 1e-6);
+  }
+}
+
+TEST(BinMeans, ABinThatIsNotFullIsLeftOut) { EXPECT_EQ(bin_means(ramp(0.18)).size(), 3u); }
+
+TEST(BinMeans, APileThatMovesUpAndDownCountsWhereItReachesNewDepth) {
+  ResistanceCurve steady = ramp(0.1), bouncing;
+  for (std::size_t i = 0; i < steady.depth.size(); ++i) {
+    bouncing.depth.push_back(steady.depth[i]);
+    bouncing.resistance.push_back(steady.resistance[i]);
+    for (const double back : {0.002, 0.001}) {
+      bouncing.depth.push_back(steady.depth[i] - back);
+      bouncing.resistance.push_back(-1e6);
+    }
+  }
+  EXPECT_EQ(bin_means(bouncing), bin_means(steady));
+}
+
+TEST(MeanOfPackings, IsOverTheBinsThatAllHave) {
+  CurveGroup group{"", {ramp(0.2), ramp(0.1)}};
+  for (double& value : group.packings[1].resistance) value *= 3;
+  const auto means = mean_of_packings(group);
+  ASSERT_EQ(means.size(), 2u);
+  EXPECT_NEAR(means[0].second, 2 * 505, 1e-6);
+}
+
+TEST_F(FigureTest, IsACompletePictureWithItsTexts) {
+  draw({"How does q_c change?", {{"tip flat", {ramp(1.2)}}, {"tip conical", {ramp(1.2)}}}}, folder / "a.svg");
+  const std::string svg = content(folder / "a.svg");
+  EXPECT_TRUE(svg.starts_with("<?xml"));
+  EXPECT_THAT(svg, HasSubstr("How does q_c change?"));
+  EXPECT_THAT(svg, HasSubstr("tip conical"));
+  EXPECT_THAT(svg, HasSubstr("(kPa)"));
+  EXPECT_THAT(svg, HasSubstr("</svg>"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "something was left beside the picture";
+}
+
+TEST_F(FigureTest, NoTextIsRunAsACommandOrBreaksThePicture) {
+  const std::string file = (folder / "harm").string();
+  const std::string harm =
+      "'; system(\"touch " + file + "\"); `touch " + file + "` $x @y {/Bold b} <b> & \\ \"\nset output";
+  draw({harm, {{harm, {ramp(0.2)}}, {"b", {ramp(0.2)}}}}, folder / "a'b.svg");
+  EXPECT_FALSE(fs::exists(file));
+  const std::string svg = content(folder / "a'b.svg");
+  EXPECT_THAT(svg, HasSubstr("&lt;b> &amp;"));
+  EXPECT_THAT(svg, Not(HasSubstr("<b>")));
+}
+
+TEST_F(FigureTest, ALongTitleIsBrokenAndCut) {
+  std::string title;
+  for (int i = 0; i < 200; ++i) title += "word ";
+  const std::string script = gnuplot_script({title, {{"", {ramp(0.2)}}}}, "a.svg");
+  EXPECT_THAT(script, HasSubstr("set label 3 "));
+  EXPECT_THAT(script, HasSubstr("…"));
+  EXPECT_THAT(script, Not(HasSubstr("set label 5 ")));
+}
+
+TEST_F(FigureTest, ManyRecordsAreThinnedButThePeaksStay) {
+  ResistanceCurve curve;
+  for (int i = 1; i <= 100000; ++i) {
+    curve.depth.push_back(i * 1e-5);
+    curve.resistance.push_back(i == 77777 ? 5e6 : 1000);
+  }
+  const std::string script = gnuplot_script({"", {{"", {curve}}}}, "a.svg");
+  EXPECT_LT(script.size(), 100'000u);
+  EXPECT_THAT(script, HasSubstr("\n5000 0.77777\n"));
+}
+
+TEST_F(FigureTest, TwelveCasesHaveTwelveLooks) {
+  Figure figure;
+  for (int i = 0; i < 12; ++i) figure.groups.push_back({"case " + std::to_string(i), {ramp(0.2)}});
+  const std::string script = gnuplot_script(figure, "a.svg");
+  std::set<std::string> looks;
+  for (std::size_t at = 0; (at = script.find(" dt ", at)) != std::string::npos; ++at) {
+    looks.insert(script.substr(at, script.find(" title", at) - at));
+  }
+  EXPECT_EQ(looks.size(), 12u);
+}
+
+TEST_F(FigureTest, AFolderThatCannotBeWrittenIsAnErrorInWords) {
+  std::ofstream(folder / "file") << "in the way";
+  EXPECT_THROW(draw({"", {{"", {ramp(0.2)}}}}, folder / "file" / "a.svg"), store::StoreError);
+}
+
+}  // namespace
+}  // namespace seapile::present

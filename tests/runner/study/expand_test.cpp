@@ -1,0 +1,233 @@
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "runner/study/sha256.h"
+#include "tests/runner/study/scratch.h"
+
+namespace seapile::study {
+namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
+
+using Expand = Scratch;
+
+std::vector<std::string> labels(const Study& study) {
+  std::vector<std::string> texts;
+  for (const Case& one : study.cases) {
+    std::string text;
+    for (const auto& [path, value] : one.labels) text += (text.empty() ? "" : " ") + path + "=" + value;
+    texts.push_back(text);
+  }
+  return texts;
+}
+
+TEST_F(Expand, AStudyWithoutAxesIsOneCase) {
+  const Study one = study("");
+  EXPECT_EQ(one.name, "test");
+  ASSERT_EQ(one.cases.size(), 1u);
+  EXPECT_EQ(one.cases[0].scene, scene::SceneSpec{});
+  EXPECT_TRUE(one.cases[0].labels.empty());
+}
+
+TEST_F(Expand, ABedAloneIsItsOwnCase) {
+  const Study one = study("");
+  EXPECT_EQ(one.cases[0].id, one.cases[0].bed_id);
+  EXPECT_EQ(one.cases[0].canonical, one.cases[0].bed_canonical);
+}
+
+TEST_F(Expand, AxesMakeAGridInTheOrderWritten) {
+  EXPECT_THAT(labels(study(R"("axes": {"pile.tip": ["flat", "conical"], "pile.depth": ["1 m", 0.5]})")),
+              ElementsAre("pile.tip=flat pile.depth=1 m", "pile.tip=flat pile.depth=0.5 m",
+                          "pile.tip=conical pile.depth=1 m", "pile.tip=conical pile.depth=0.5 m"));
+}
+
+TEST_F(Expand, ZippedArraysAdvanceTogetherAfterTheAxes) {
+  EXPECT_THAT(
+      labels(study(R"("zip": {"pile.radius": [0.1, 0.2], "pile.depth": [0.5, 0.6]}, "axes": {"bed.seed": [1, 2]})")),
+      ElementsAre("bed.seed=1 pile.radius=0.1 m pile.depth=0.5 m", "bed.seed=1 pile.radius=0.2 m pile.depth=0.6 m",
+                  "bed.seed=2 pile.radius=0.1 m pile.depth=0.5 m", "bed.seed=2 pile.radius=0.2 m pile.depth=0.6 m"));
+}
+
+TEST_F(Expand, ReplicatesAreTheFastestAxisOverTheSeed) {
+  const Study seeds = study(R"("replicates": {"seeds": 3}, "axes": {"pile.tip": ["flat", "conical"]})");
+  EXPECT_EQ(labels(seeds)[1], "pile.tip=flat bed.seed=2");
+  EXPECT_EQ(seeds.cases.size(), 6u);
+  EXPECT_EQ(seeds.cases[2].scene.bed.seed, 3u);
+  const Study listed = study(R"("replicates": {"seed": [1, 2, 3]}, "axes": {"pile.tip": ["flat", "conical"]})");
+  EXPECT_EQ(labels(listed), labels(seeds));
+}
+
+TEST_F(Expand, CasesOfOneSeedShareTheirBed) {
+  const Study four = study(R"("axes": {"pile.tip": ["flat", "conical"]}, "replicates": {"seeds": 2})");
+  EXPECT_EQ(four.cases[0].bed_id, four.cases[2].bed_id);
+  EXPECT_EQ(four.cases[1].bed_id, four.cases[3].bed_id);
+  EXPECT_NE(four.cases[0].bed_id, four.cases[1].bed_id);
+  std::set<std::string> ids;
+  for (const Case& one : four.cases) ids.insert(one.id);
+  EXPECT_EQ(ids.size(), 4u);
+}
+
+TEST_F(Expand, AnAxisValueTakesThePlaceOfTheBase) {
+  const Study two = study(R"("base": {"pile": {"depth": 1}}, "axes": {"pile.depth": [0.5, 0.6]})");
+  EXPECT_EQ(two.cases[0].scene.pile->depth, 0.5);
+  EXPECT_EQ(two.cases[1].scene.pile->depth, 0.6);
+}
+
+TEST_F(Expand, APartStandsBeforeWhatIsInItInWhateverOrder) {
+  const std::string parts = R"("pile": [{"friction": 0.1}, {"friction": 0.2}])";
+  const std::string members = R"("pile.depth": [0.5, 0.6])";
+  for (const std::string& axes : {parts + ", " + members, members + ", " + parts}) {
+    const Study four = study("\"axes\": {" + axes + "}");
+    ASSERT_EQ(four.cases.size(), 4u);
+    for (const Case& one : four.cases) EXPECT_NE(one.scene.pile->depth, 1.2);
+    EXPECT_NE(four.cases[0].scene.pile->friction, four.cases[3].scene.pile->friction);
+  }
+}
+
+TEST_F(Expand, AnAxisInsideAnAlternativeKeepsItsOtherMembers) {
+  const Study two = study(R"("base": {"pile": {"driving": {"vibratory": {"speed": 0.1}}}},
+                             "axes": {"pile.driving.vibratory.frequency": [10, 20]})");
+  EXPECT_EQ(two.cases[1].scene.pile->driving, pile::Driving(pile::VibratoryDriving{0.1, 1e-3, 20}));
+}
+
+TEST_F(Expand, ANamedAlternativeOpensForItsMembers) {
+  const Study two =
+      study(R"("base": {"pile": {"tip": "conical"}}, "axes": {"pile.tip.conical.apex_angle": ["30 deg", "90 deg"]})");
+  EXPECT_EQ(labels(two)[0], "pile.tip.conical.apex_angle=30 deg");
+}
+
+TEST_F(Expand, LabelsOfPartsAreReadable) {
+  EXPECT_THAT(labels(study(R"("axes": {"pile.tip": ["flat", "conical", {"conical": {"apex_angle": 0.5}}]})")),
+              ElementsAre("pile.tip=flat", "pile.tip=conical", "pile.tip=conical(apex_angle=0.5 rad)"));
+  EXPECT_THAT(labels(study(R"("axes": {"pile": [null, {}, {"depth": "50 cm", "tip": "flat"}]})")),
+              ElementsAre("pile=null", "pile=default", "pile=depth=50 cm, tip=flat"));
+}
+
+TEST_F(Expand, ExcludedCasesAreLeftOut) {
+  EXPECT_THAT(labels(study(R"("axes": {"pile.tip": ["flat", "conical"], "pile.depth": [0.5, "1 m"]},
+                              "exclude": [{"pile.tip": "flat", "pile.depth": "100 cm"}])")),
+              ElementsAre("pile.tip=flat pile.depth=0.5 m", "pile.tip=conical pile.depth=0.5 m",
+                          "pile.tip=conical pile.depth=1 m"));
+}
+
+TEST_F(Expand, AConditionMayNameAnythingTheSceneHolds) {
+  const std::string axes = R"("axes": {"pile.tip": ["flat", "conical"], "pile.depth": [0.5, 1]}, "exclude": [)";
+  EXPECT_EQ(study(axes + R"({"pile.tip": "conical"}])").cases.size(), 2u);
+  EXPECT_EQ(study(axes + R"({"pile.tip": {"conical": {"apex_angle": "60 deg"}}, "pile.depth": 1}])").cases.size(), 3u);
+  EXPECT_EQ(study(axes + R"({"pile.tip.conical.apex_angle": "60 deg"}])").cases.size(), 2u);
+  EXPECT_EQ(study(axes + R"({"pile.depth": 1, "contact.step": "0.5 ms", "contact.precision": "single"}])").cases.size(),
+            2u);
+  EXPECT_EQ(study(axes + R"({"pile.depth": 1, "pile.duration": null, "pile": {}}])").cases.size(), 2u);
+  EXPECT_EQ(problems(axes + R"({"pile.tip.conical.apex_angle": "61 deg"}])").size(), 1u);
+}
+
+TEST_F(Expand, AnExcludedCaseMayBeImpossible) {
+  EXPECT_EQ(
+      study(R"("axes": {"pile.depth": [0.5, 3], "pile.tip": ["flat", "conical"]}, "exclude": [{"pile.depth": 3}])")
+          .cases.size(),
+      2u);
+  EXPECT_EQ(study(R"("axes": {"pile.tip": ["flat", "conical"], "pile.tip.conical.apex_angle": ["60 deg", 1]},
+                      "exclude": [{"pile.tip": "flat"}])")
+                .cases.size(),
+            2u);
+}
+
+TEST_F(Expand, WhenSetsWhereItsConditionHolds) {
+  const Study two = study(R"("axes": {"pile.tip": ["flat", "conical"]},
+      "when": [{"if": {"pile.tip": "conical"}, "set": {"pile.tip.conical.apex_angle": "45 deg", "pile.depth": 0.5}}])");
+  EXPECT_EQ(two.cases[0].scene.pile->depth, 1.2);
+  EXPECT_EQ(two.cases[1].scene.pile->depth, 0.5);
+  EXPECT_NE(two.cases[1].scene.pile->tip, pile::Tip(pile::ConicalTip{}));
+}
+
+TEST_F(Expand, ExcludeSeesWhatWhenHasSet) {
+  EXPECT_EQ(study(R"("axes": {"pile.tip": ["flat", "conical"]},
+      "when": [{"if": {"pile.tip": "conical"}, "set": {"pile.depth": 0.5}}], "exclude": [{"pile.depth": 0.5}])")
+                .cases.size(),
+            1u);
+}
+
+TEST_F(Expand, FidelityFillsTheContactSolverOfTheDrive) {
+  const auto contact = [&](const std::string& members) {
+    return study("\"base\": {\"pile\": {}}, " + members).cases[0].scene.contact;
+  };
+  EXPECT_EQ(contact(R"("fidelity": "standard")"), grains::ContactSpec{});
+  EXPECT_EQ(contact(R"("fidelity": "draft")").substeps, 5);
+  const grains::ContactSpec reference = contact(R"("fidelity": "reference")");
+  EXPECT_EQ(reference.step, 5e-4);
+  EXPECT_EQ(reference.substeps, 20);
+  EXPECT_EQ(reference.precision, grains::Precision::double_);
+  EXPECT_EQ(study(R"("base": {"pile": {}}, "fidelity": "reference")").cases[0].bed_id,
+            study(R"("base": {"pile": {}})").cases[0].bed_id);
+}
+
+TEST_F(Expand, WhatTheStudySaysItselfStandsAboveItsFidelity) {
+  const auto base =
+      study(R"("base": {"pile": {}, "contact": {"substeps": 7}}, "fidelity": "reference")").cases[0].scene.contact;
+  EXPECT_EQ(base.substeps, 7);
+  EXPECT_EQ(base.precision, grains::Precision::double_);
+  const Study axis = study(R"("axes": {"contact.substeps": [7, 8]}, "base": {"pile": {}}, "fidelity": "draft")");
+  EXPECT_EQ(axis.cases[1].scene.contact.substeps, 8);
+}
+
+TEST_F(Expand, AnIdDependsOnTheSceneAndNotOnHowItIsSaid) {
+  const std::string one = study(R"("base": {"pile": {"depth": 1.2, "tip": "conical"}, "fluid": null})").cases[0].id;
+  EXPECT_EQ(study(R"("base": {"pile": {}})").cases[0].id, one);
+  EXPECT_EQ(study(R"("base": {"pile": {"tip": {"conical": {"apex_angle": "60 deg"}}, "depth": "120 cm"}})").cases[0].id,
+            one);
+  EXPECT_EQ(study(R"("axes": {"pile.depth": [1, "1.2 m"]})").cases[1].id, one);
+  EXPECT_EQ(study(R"("base": {"pile": {}}, "fidelity": "standard")").cases[0].id, one);
+  EXPECT_EQ(
+      study(R"("base": {"pile": {}}, "question": "Why?", "record": {"travel": "1 mm", "frames": []})").cases[0].id,
+      one);
+}
+
+TEST_F(Expand, DefaultFramesAreThoseThatACaseReaches) {
+  EXPECT_THAT(study(R"("base": {"pile": {"depth": 0.5}})").record.frames, ElementsAre(0, 0.2));
+  EXPECT_THAT(study(R"("axes": {"pile.depth": [0.3, 0.9]})").record.frames, ElementsAre(0, 0.2, 0.6));
+  EXPECT_THAT(study(R"("base": {"pile": {"depth": null, "duration": "5 s"}})").record.frames, ElementsAre(0, 0.2));
+  EXPECT_THAT(study(R"("base": {"pile": {}})").record.frames, ElementsAre(0, 0.2, 0.6, 1.2));
+}
+
+TEST_F(Expand, AFrameThatOneCaseReachesIsFine) {
+  EXPECT_THAT(study(R"("axes": {"pile.depth": [0.3, 0.9]}, "record": {"frames": [0.8]})").record.frames,
+              ElementsAre(0.8));
+}
+
+TEST_F(Expand, TenThousandCasesAreTheMost) {
+  EXPECT_EQ(study(R"("replicates": {"seeds": 10000})").cases.size(), 10'000u);
+  EXPECT_EQ(problems(R"("replicates": {"seeds": 5001}, "axes": {"pile.tip": ["flat", "conical"]})").size(), 1u);
+}
+
+TEST_F(Expand, TheFilesHashIsOfTheBytesThatWereRead) {
+  const auto file = write("x.json", R"({"study": "x"} )");
+  EXPECT_EQ(read(file).file_sha256, sha256(R"({"study": "x"} )"));
+}
+
+TEST(Studies, TipShapeIsTheTwoTipsOnOneBed) {
+  const Study tips = read(SEAPILE_SOURCE_DIR "/studies/tip_shape.json");
+  EXPECT_EQ(tips.name, "tip_shape");
+  EXPECT_FALSE(tips.question.empty());
+  ASSERT_EQ(tips.cases.size(), 2u);
+  EXPECT_THAT(tips.cases[0].labels, ElementsAre(Pair("pile.tip", "conical")));
+  EXPECT_THAT(tips.cases[1].labels, ElementsAre(Pair("pile.tip", "flat")));
+  EXPECT_EQ(tips.cases[0].bed_id, tips.cases[1].bed_id);
+  for (const Case& one : tips.cases) {
+    EXPECT_EQ(one.scene.pile->driving, pile::Driving(pile::ConstantDriving{0.06}));
+    EXPECT_EQ(one.scene.pile->depth, 1.2);
+  }
+}
+
+TEST(Studies, VelocityIsThreeSpeedsOnTheBedOfTipShape) {
+  const Study speeds = read(SEAPILE_SOURCE_DIR "/studies/velocity.json");
+  ASSERT_EQ(speeds.cases.size(), 3u);
+  EXPECT_THAT(speeds.cases[2].labels, ElementsAre(Pair("pile.driving.constant.speed", "0.4 m/s")));
+  const Study tips = read(SEAPILE_SOURCE_DIR "/studies/tip_shape.json");
+  EXPECT_EQ(speeds.cases[0].id, tips.cases[0].id) << "one case belongs to both studies";
+  EXPECT_EQ(speeds.cases[2].bed_id, tips.cases[0].bed_id);
+}
+
+}  // namespace
+}  // namespace seapile::study

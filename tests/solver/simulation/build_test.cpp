@@ -1,0 +1,121 @@
+#include "solver/simulation/build.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/grains/body_contacts.h"
+#include "solver/grains/packing.h"
+#include "solver/simulation/state.h"
+#include "tests/support/scenes.h"
+
+namespace seapile::simulation {
+namespace {
+
+using support::settled;
+using support::small_bed;
+using support::small_drive;
+
+TEST(Build, ABedAloneHasNoPile) {
+  scene::SceneSpec scene;
+  scene.bed = small_bed(100, 0.5);
+  const Simulation sim = build(scene, settled(scene.bed), {});
+  EXPECT_FALSE(sim.pile.has_value());
+  EXPECT_EQ(sim.grains.count(), 100u);
+}
+
+TEST(Build, ThePileStartsAboveTheHighestGrainUnderItAndTouchesNone) {
+  for (const pile::Tip& tip : {pile::Tip{pile::FlatTip{}}, pile::Tip{pile::ConicalTip{}}}) {
+    const scene::SceneSpec scene = small_drive(300, 0.8, tip);
+    const Simulation sim = build(scene, settled(scene.bed), {});
+    double highest = 0;
+    for (std::size_t i = 0; i < sim.grains.count(); ++i) {
+      const grains::Disc& d = sim.grains.disc[i];
+      EXPECT_GT(nearest_place(sim.pile->body, {d.x, d.y}).distance, d.radius);
+      if (std::abs(d.x) < 0.05) highest = std::max(highest, d.y + d.radius);
+    }
+    EXPECT_GT(sim.pile->start, highest);
+    EXPECT_LT(sim.pile->start, highest + 0.05) << "but not far above";
+    EXPECT_EQ(sim.pile->body.position, (base::Vec2{0, sim.pile->start}));
+  }
+}
+
+// A grain beside the pile that is higher than all those under it is in nobody's way; one that overlaps its width is.
+TEST(Build, OnlyGrainsUnderThePileDecideWhereItStarts) {
+  const scene::SceneSpec scene = small_drive(3, 0.8, pile::FlatTip{});
+  const auto start_with = [&](double x) {
+    Bed bed;
+    bed.grains = {{{"grains/id", "-", "", 1, Entity::grain}, std::vector<std::int64_t>{0, 1, 2}},
+                  {{"grains/position", "m", "", 2, Entity::grain}, std::vector<double>{0, 0.015, x, 0.3, -0.2, 0.015}},
+                  {{"grains/radius", "m", "", 1, Entity::grain}, std::vector<double>(3, 0.015)}};
+    return build(scene, bed, {}).pile->start;
+  };
+  EXPECT_LT(start_with(0.0651), 0.031);
+  EXPECT_GT(start_with(0.0649), 0.315);
+}
+
+TEST(Build, DepthCountsFromTheBedsSurface) {
+  const scene::SceneSpec scene = small_drive(300, 0.8, pile::FlatTip{});
+  const Bed& bed = settled(scene.bed);
+  const Simulation sim = build(scene, bed, {});
+  EXPECT_EQ(sim.surface, support::metric(bed.metrics, "surface"));
+  EXPECT_EQ(sim.surface, grains::bed_surface({sim.grains.disc.data(), 300}, -0.4, 0.4));
+}
+
+TEST(Build, GrainsGoToTheSolversOrderAndBack) {
+  const Bed& bed = settled(small_bed(300, 0.8));
+  EXPECT_EQ(compare(arrays_of(grains_of(bed.grains, 1500)), bed.grains), "");
+}
+
+TEST(Build, ABedThatIsNotOneIsRefused) {
+  const scene::SceneSpec scene = small_drive(100, 0.5, pile::FlatTip{});
+  const Bed& bed = settled(scene.bed);
+  for (std::size_t k = 0; k < 3; ++k) {
+    Bed missing = bed, wrong_type = bed;
+    missing.grains.erase(missing.grains.begin() + static_cast<std::ptrdiff_t>(k));
+    wrong_type.grains[k].values = std::vector<float>(100);
+    EXPECT_THROW(build(scene, missing, {}), std::invalid_argument);
+    EXPECT_THROW(build(scene, wrong_type, {}), std::invalid_argument);
+  }
+  Bed shorter = bed;
+  std::get<std::vector<double>>(shorter.grains[2].values).pop_back();
+  EXPECT_THROW(build(scene, shorter, {}), std::invalid_argument);
+}
+
+TEST(Build, ABedOfAnotherSceneIsRefused) {
+  EXPECT_THROW(build(small_drive(101, 0.5, pile::FlatTip{}), settled(small_bed(100, 0.5)), {}), std::invalid_argument);
+}
+
+TEST(Build, ThePrecisionIsTheOneAskedFor) {
+  scene::SceneSpec scene = small_drive(100, 0.5, pile::FlatTip{});
+  const Bed& bed = settled(scene.bed);
+  EXPECT_TRUE(std::holds_alternative<grains::ContactSystem<float>>(build(scene, bed, {}).contacts));
+  scene.contact.precision = grains::Precision::double_;
+  EXPECT_TRUE(std::holds_alternative<grains::ContactSystem<double>>(build(scene, bed, {}).contacts));
+}
+
+TEST(Parts, ADrySceneHasNoMeshNoFluidNoFreeSurfaceAndSaysWhy) {
+  const std::vector<Part> all = parts(small_drive(100, 0.5, pile::FlatTip{}));
+  std::vector<std::string> built, left_out;
+  for (const Part& part : all) {
+    (part.built ? built : left_out).push_back(part.name);
+    EXPECT_FALSE(part.reason.empty()) << part.name;
+    if (part.name == "mesh" || part.name == "fluid" || part.name == "free_surface") {
+      EXPECT_THAT(part.reason, testing::HasSubstr("dry")) << part.name;
+    }
+  }
+  EXPECT_THAT(built, testing::UnorderedElementsAre("grains", "walls", "pile"));
+  EXPECT_THAT(left_out, testing::IsSupersetOf({"mesh", "fluid", "free_surface"}));
+}
+
+TEST(Parts, ABedAloneIsBuiltWithoutAPile) {
+  scene::SceneSpec scene;
+  scene.bed = small_bed(100, 0.5);
+  for (const Part& part : parts(scene))
+    EXPECT_EQ(part.built, part.name == "grains" || part.name == "walls") << part.name;
+}
+
+}  // namespace
+}  // namespace seapile::simulation

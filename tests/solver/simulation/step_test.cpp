@@ -1,0 +1,97 @@
+#include "solver/simulation/step.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "solver/pile/pile.h"
+#include "solver/simulation/build.h"
+#include "solver/simulation/observe.h"
+#include "solver/simulation/state.h"
+#include "tests/support/scenes.h"
+
+namespace seapile::simulation {
+namespace {
+
+using support::settled;
+using support::small_drive;
+
+Simulation with(const pile::Driving& driving) {
+  scene::SceneSpec scene = small_drive(150, 0.6, pile::FlatTip{});
+  scene.pile->driving = driving;
+  return build(scene, settled(scene.bed), {});
+}
+
+// Time is counted in steps and the pile's place follows from it: after 3000 steps it carries one rounding, not 3000.
+TEST(Step, ThePileIsWhereItsDriveHasIt) {
+  const pile::Driving drives[] = {pile::ConstantDriving{0.06}, pile::SinusoidalDriving{0.1, 2},
+                                  pile::VibratoryDriving{0.02, 1e-3, 20}};
+  for (const pile::Driving& driving : drives) {
+    Simulation sim = with(driving);
+    for (int k = 1; k <= 500; ++k) {
+      step(sim);
+      ASSERT_EQ(sim.clock.time(), k * 5e-4);
+      ASSERT_EQ(sim.pile->body.position.y, sim.pile->start - pile::path(driving, k * 5e-4));
+      ASSERT_EQ(sim.pile->body.position.x, 0);
+    }
+  }
+}
+
+TEST(Step, TravelIsTheLengthOfTheWayUpAndDown) {
+  Simulation sim = with(pile::SinusoidalDriving{0.1, 2});
+  for (int k = 0; k < 1000; ++k) step(sim);
+  // One period of V sin(2 pi f t): down and up by V / (pi f) each.
+  EXPECT_NEAR(sim.pile->travel, 2 * 0.1 / (std::numbers::pi * 2), 1e-6);
+  EXPECT_NEAR(sim.pile->body.position.y, sim.pile->start, 1e-12);
+}
+
+TEST(Step, OneThatIsFineMeetsNoObjection) {
+  Simulation sim = with(pile::ConstantDriving{0.4});
+  for (int k = 0; k < 200; ++k) EXPECT_EQ(objection(sim, step(sim)), "");
+}
+
+TEST(Step, APlaceThatIsNoNumberMeetsAnObjection) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Simulation place = with(pile::ConstantDriving{0.4}), motion = with(pile::ConstantDriving{0.4});
+    for (int k = 0; k < 20; ++k) step(place), step(motion);
+    place.grains.disc[75].x = bad;
+    std::visit([&](auto& system) { system.motion(75).vy = static_cast<float>(bad); }, motion.contacts);
+    EXPECT_NE(objection(place, step(place)), "");
+    EXPECT_NE(objection(motion, step(motion)), "");
+  }
+}
+
+TEST(Step, AGrainThatMovesMoreThanTheSmallestRadiusMeetsAnObjection) {
+  Simulation sim = with(pile::ConstantDriving{0.4});
+  std::visit([](auto& system) { system.motion(75).vy = 30; }, sim.contacts);
+  std::string why;
+  for (int k = 0; k < 3 && why.empty(); ++k) why = objection(sim, step(sim));
+  EXPECT_THAT(why, testing::HasSubstr("reduce the step"));
+}
+
+// Propose, check, reject: the stretch that is done again has the bits of one that was never tried.
+TEST(Trial, ARejectedStretchLeavesNoTrace) {
+  Simulation tried = with(pile::ConstantDriving{0.4}), straight = with(pile::ConstantDriving{0.4});
+  const auto advance = [](Simulation& sim, int steps) {
+    for (int k = 0; k < steps; ++k) gather(sim, step(sim));
+  };
+  advance(tried, 150);
+  advance(straight, 150);
+  const Trial trial(tried);
+  advance(tried, 73);
+  tried.grains.disc[7].y = std::numeric_limits<double>::quiet_NaN();
+  step(tried);
+  trial.reject(tried);
+  EXPECT_EQ(compare(snapshot(tried), trial.start()), "");
+  EXPECT_EQ(compare(snapshot(tried), snapshot(straight)), "");
+  advance(tried, 200);
+  advance(straight, 200);
+  EXPECT_EQ(compare(snapshot(tried), snapshot(straight)), "");
+  EXPECT_EQ(state_hash(tried), state_hash(straight));
+}
+
+}  // namespace
+}  // namespace seapile::simulation
