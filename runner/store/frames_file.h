@@ -7,6 +7,7 @@
 // What is drawn leaves out a frame without a point or cell: readers stop there, or misplace what follows.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 
@@ -14,6 +15,9 @@
 #include "runner/store/stamp.h"
 
 namespace seapile::store {
+
+/// What holds the frames' numbers; each has an .xdmf sidecar.
+inline constexpr std::array kFrameFiles = {"grains.vtkhdf", "contacts.vtkhdf", "fields.vtkhdf"};
 
 /// Seals grains.vtkhdf, contacts.vtkhdf and fields.vtkhdf with their .xdmf sidecars; none when there are no frames.
 void write_frames(const std::filesystem::path& folder, const Stamp& stamp, const FrameSource& frames);

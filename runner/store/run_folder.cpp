@@ -37,6 +37,33 @@ bool has_manifest(const Path& run_folder) { return is_there(run_folder / kManife
 
 Stamp stamp_of(const Manifest& manifest) { return {manifest.header.case_id, manifest.run}; }
 
+/// What is wrong with a file of a complete run; empty: nothing. Throws StoreError::io when it cannot be read.
+std::string difference(const Path& run_folder, const FileEntry& entry) {
+  const Path file = run_folder / entry.path;
+  std::error_code error;
+  const std::uint64_t bytes = std::filesystem::file_size(file, error);
+  if (!error && bytes != entry.bytes) {
+    return fmt::format("{} has {} bytes instead of {}", file.string(), bytes, entry.bytes);
+  }
+  if (sha256_of_file(file) != entry.sha256) return file.string() + " has another SHA-256 than the manifest says";
+  return {};
+}
+
+bool is_listed(const Manifest& manifest, const std::string& path) {
+  return std::ranges::find(manifest.files, path, &FileEntry::path) != manifest.files.end();
+}
+
+/// The file, compared with the manifest first: the HDF5 library can crash on a damaged one.
+Path intact(const Path& run_folder, const Manifest& manifest, const std::string& path) {
+  const auto entry = std::ranges::find(manifest.files, path, &FileEntry::path);
+  if (entry == manifest.files.end()) {
+    throw StoreError(StoreError::Kind::damaged, run_folder.string() + " has no " + path);
+  }
+  const std::string found = difference(run_folder, *entry);
+  if (!found.empty()) throw StoreError(StoreError::Kind::damaged, found);
+  return run_folder / path;
+}
+
 /// The path without dots and without a slash at its end.
 Path plain(const Path& folder) {
   const Path normal = std::filesystem::absolute(folder).lexically_normal();
@@ -104,15 +131,9 @@ Manifest read_manifest(const Path& run_folder) {
 std::vector<std::string> verify(const Path& run_folder) {
   std::vector<std::string> differences;
   for (const FileEntry& entry : read_manifest(run_folder).files) {
-    const Path file = run_folder / entry.path;
     try {
-      std::error_code error;
-      const std::uint64_t bytes = std::filesystem::file_size(file, error);
-      if (!error && bytes != entry.bytes) {
-        differences.push_back(fmt::format("{} has {} bytes instead of {}", file.string(), bytes, entry.bytes));
-      } else if (sha256_of_file(file) != entry.sha256) {
-        differences.push_back(file.string() + " has another SHA-256 than the manifest says");
-      }
+      std::string found = difference(run_folder, entry);
+      if (!found.empty()) differences.push_back(std::move(found));
     } catch (const StoreError& error) {
       differences.emplace_back(error.what());
     }
@@ -122,9 +143,8 @@ std::vector<std::string> verify(const Path& run_folder) {
 
 std::vector<simulation::Record> read_series(const Path& run_folder) {
   const Manifest manifest = read_manifest(run_folder);
-  const bool has_bed = std::ranges::find(manifest.files, "bed.h5", &FileEntry::path) != manifest.files.end();
-  if (has_bed) return read_bed(run_folder / "bed.h5", stamp_of(manifest)).records;
-  hdf5::FileReader reader(run_folder / "series.h5");
+  if (is_listed(manifest, "bed.h5")) return read_bed(run_folder).records;
+  hdf5::FileReader reader(intact(run_folder, manifest, "series.h5"));
   check_stamp(reader, "series", stamp_of(manifest));
   std::vector<simulation::Record> records = read_series(reader, "/series");
   reader.close();
@@ -132,7 +152,8 @@ std::vector<simulation::Record> read_series(const Path& run_folder) {
 }
 
 simulation::Bed read_bed(const Path& run_folder) {
-  return read_bed(run_folder / "bed.h5", stamp_of(read_manifest(run_folder)));
+  const Manifest manifest = read_manifest(run_folder);
+  return read_bed(intact(run_folder, manifest, "bed.h5"), stamp_of(manifest));
 }
 
 std::size_t frame_count(const Path& run_folder) { return read_manifest(run_folder).frames; }
@@ -140,6 +161,7 @@ std::size_t frame_count(const Path& run_folder) { return read_manifest(run_folde
 simulation::Frame read_frame(const Path& run_folder, std::size_t index) {
   const Manifest manifest = read_manifest(run_folder);
   if (index >= manifest.frames) throw std::out_of_range("the run has no frame " + std::to_string(index));
+  for (const char* file : kFrameFiles) intact(run_folder, manifest, file);
   return read_frame(run_folder, stamp_of(manifest), index);
 }
 

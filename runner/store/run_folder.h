@@ -134,6 +134,8 @@ Manifest read_manifest(const std::filesystem::path& run_folder);
 /// read_manifest().
 std::vector<std::string> verify(const std::filesystem::path& run_folder);
 
+// The readers of a complete run compare each file with the manifest before the HDF5 library sees it.
+
 /// Reads the whole series of a complete run. Throws StoreError.
 std::vector<simulation::Record> read_series(const std::filesystem::path& run_folder);
 

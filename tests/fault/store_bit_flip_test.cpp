@@ -1,5 +1,5 @@
-// A sealed result in which one bit has changed. Two guards are tried apart: verify(), which compares every file with
-// the manifest, and the readers, which know nothing of the manifest's hashes.
+// A sealed result in which one bit has changed. verify() must see it wherever it is, and every reader must refuse the
+// file that it is in before the HDF5 library opens it, which can crash on a damaged file.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -73,7 +73,7 @@ TEST(BitFlip, IsNeverReadAsAResult) {
       const bool right = is_right(content) && content.manifest.seal == seal &&
                          sample::difference(read_bed(written.bed), sample::bed()).empty();
       EXPECT_TRUE(right) << "silently wrong";
-      harmless += right ? 1 : 0;  // Padding, or what only ParaView reads.
+      harmless += right ? 1 : 0;  // In a sidecar, which only ParaView reads.
     } catch (const StoreError&) {
       ++refused;
     }
