@@ -19,6 +19,15 @@ bool available(InstructionSet set) {
   return set == InstructionSet::generic;
 }
 
+InstructionSet fastest() {
+#if defined(SEAPILE_X86)
+  // AMD's family 19h: Zen 3, which has no AVX-512, and Zen 4.
+  if (available(InstructionSet::avx512) && !__builtin_cpu_is("amdfam19h")) return InstructionSet::avx512;
+  if (available(InstructionSet::avx2)) return InstructionSet::avx2;
+#endif
+  return InstructionSet::generic;
+}
+
 template <>
 const ContactKernels<float>& contact_kernels<float>(InstructionSet set) {
   if (!available(set)) throw std::invalid_argument("the processor lacks the instructions asked for");

@@ -14,14 +14,12 @@ namespace {
 
 grains::Team team_of(const Execution& execution) {
   using grains::InstructionSet;
-  InstructionSet set = InstructionSet::generic;
+  InstructionSet set = grains::fastest();
   switch (execution.simd) {
-    case Simd::generic: break;
+    case Simd::best: break;
+    case Simd::generic: set = InstructionSet::generic; break;
     case Simd::avx2: set = InstructionSet::avx2; break;
     case Simd::avx512: set = InstructionSet::avx512; break;
-    case Simd::best:
-      if (available(InstructionSet::avx2)) set = InstructionSet::avx2;
-      if (available(InstructionSet::avx512)) set = InstructionSet::avx512;
   }
   return {std::max(1, execution.threads), set};
 }

@@ -228,6 +228,7 @@ TYPED_TEST(ContactKernel, ASweepLeavesRestingBlocksAndEmptyLanesAlone) {
 }
 
 TEST(ContactKernels, TheProcessorsOwnSetsAreThere) {
+  EXPECT_TRUE(available(fastest()));
   EXPECT_TRUE(available(InstructionSet::generic));
   EXPECT_STREQ(contact_kernels<float>(InstructionSet::generic).name, "generic");
   for (const auto& [set, name] : {std::pair{InstructionSet::avx2, "avx2"}, {InstructionSet::avx512, "avx512"}}) {
