@@ -172,7 +172,7 @@ Frame ForceWindow::frame(const Simulation& sim, double spacing, double height) c
 }
 
 std::vector<Metric> drive_metrics(std::span<const Record> records, const pile::PileSpec& pile) {
-  constexpr double kFrom = 0.2, kTo = 1.2, kBin = 0.05;  // design README: headline and depth bin
+  constexpr double kFrom = 0.2, kTo = 1.2, kBin = 0.05;  // headline and depth bin: docs/formulation.md 3
   std::vector<Metric> metrics;
   const auto add = [&](std::string name, double value, const char* unit, const char* meaning) {
     if (std::isfinite(value)) metrics.push_back({std::move(name), value, unit, meaning});

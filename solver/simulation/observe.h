@@ -42,7 +42,7 @@ class ForceWindow {
   std::map<std::pair<std::int32_t, std::int32_t>, Sum> sum_;
 };
 
-/// Headline, fluctuation, depth bins and extremes of a drive's records (design README, Definitions).
+/// Headline, fluctuation, depth bins and extremes of a drive's records (docs/formulation.md 3).
 std::vector<Metric> drive_metrics(std::span<const Record> records, const pile::PileSpec& pile);
 
 }  // namespace seapile::simulation

@@ -1,8 +1,8 @@
 // One time step: Algorithm 1 of the thesis (ch. 6.2), for what a dry scene owns of it.
 //
 // Line 2, the pile's motion, comes first: within a step the pile is where its prescribed path has it at each sub-step,
-// and the grains meet it there (Deviation from the printed order: design decision on 8.20, docs/formulation.md 1). A dry
-// scene has no lines 3 to 8: there is no fluid whose domain could follow.
+// and the grains meet it there (a deviation from the printed order: docs/formulation.md 1). A dry scene has no lines
+// 3 to 8: there is no fluid whose domain could follow.
 #include "solver/simulation/step.h"
 
 #include <cmath>
