@@ -133,22 +133,31 @@ void sweep(ContactBlock<Real>* blocks, const std::uint8_t* active, std::int32_t 
   for (std::int32_t b = first; b < last; ++b) {
     if (!active[b]) continue;
     ContactBlock<Real>& block = blocks[b];
+
+    // All parts of the block are gathered before any is put back: their chains of dependent operations run side by side.
+    V vxi[P], vyi[P], ui[P], mi[P], vxj[P], vyj[P], uj[P], mj[P], closed[P];
+#pragma GCC unroll 16
     for (int p = 0; p < P; ++p) {
       const int k = p * W;
-      V vxi, vyi, ui, mi, vxj, vyj, uj, mj;
-      gather<Real>(motions, block.i + k, vxi, vyi, ui, mi);
-      gather<Real>(motions, block.j + k, vxj, vyj, uj, mj);
+      gather<Real>(motions, block.i + k, vxi[p], vyi[p], ui[p], mi[p]);
+      gather<Real>(motions, block.j + k, vxj[p], vyj[p], uj[p], mj[p]);
       V dxi, dyi, dxj, dyj, unused0, unused1;
       gather<Real>(drifts, block.i + k, dxi, dyi, unused0, unused1);
       gather<Real>(drifts, block.j + k, dxj, dyj, unused0, unused1);
+      closed[p] = load<V>(block.nx + k) * (dxj - dxi) + load<V>(block.ny + k) * (dyj - dyi);
+    }
+
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      const int k = p * W;
       const V nx = load<V>(block.nx + k), ny = load<V>(block.ny + k), mass = load<V>(block.mass + k);
       const V pn = load<V>(block.pn + k), pt = load<V>(block.pt + k);
 
       // Gap now, and the velocities across the contact.
-      const V gap = load<V>(block.gap + k) + (nx * (dxj - dxi) + ny * (dyj - dyi));
-      const V wx = vxj - vxi, wy = vyj - vyi;
+      const V gap = load<V>(block.gap + k) + closed[p];
+      const V wx = vxj[p] - vxi[p], wy = vyj[p] - vyi[p];
       const V vn = nx * wx + ny * wy;
-      const V vt = (nx * wy - ny * wx) - (ui + uj);
+      const V vt = (nx * wy - ny * wx) - (ui[p] + uj[p]);
 
       // Normal: an open gap may close but not overshoot; an overlap is pushed apart softly.
       const auto open = gap > zero;
@@ -169,14 +178,21 @@ void sweep(ContactBlock<Real>* blocks, const std::uint8_t* active, std::int32_t 
       store(block.pt + k, new_pt);
 
       const V px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, two_pt = dpt + dpt;
-      scatter<Real>(motions, block.i + k, V(vxi - mi * px), V(vyi - mi * py), V(ui - mi * two_pt), mi);
-      scatter<Real>(motions, block.j + k, V(vxj + mj * px), V(vyj + mj * py), V(uj - mj * two_pt), mj);
+      vxi[p] = vxi[p] - mi[p] * px, vyi[p] = vyi[p] - mi[p] * py, ui[p] = ui[p] - mi[p] * two_pt;
+      vxj[p] = vxj[p] + mj[p] * px, vyj[p] = vyj[p] + mj[p] * py, uj[p] = uj[p] - mj[p] * two_pt;
 
       // Work of the change on the mean of the velocities before and after it; the normal velocity it changed.
-      const V inverse_mass = mi + mj;
+      const V inverse_mass = mi[p] + mj[p];
       const V dvn = inverse_mass * dpn, dvt = (inverse_mass + inverse_mass + inverse_mass) * dpt;
       work[p] = work[p] + dpn * (vn + half * dvn) + dpt * (vt + half * dvt);
       residual[p] = residual[p] + dvn * dvn;
+    }
+
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      const int k = p * W;
+      scatter<Real>(motions, block.i + k, vxi[p], vyi[p], ui[p], mi[p]);
+      scatter<Real>(motions, block.j + k, vxj[p], vyj[p], uj[p], mj[p]);
     }
   }
 
