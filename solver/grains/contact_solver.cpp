@@ -369,7 +369,10 @@ OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grai
   statistics.mean = sum / static_cast<double>(overlap.size());
   // The smallest overlap that 99.9 % do not exceed: the k-th largest.
   const auto k = static_cast<std::ptrdiff_t>(overlap.size() / 1000);
-  std::nth_element(overlap.begin(), overlap.begin() + k, overlap.end(), std::greater<>());
+  // Seldom more than a hundredth lies above four times the mean, and the k largest among it.
+  auto last = std::partition(overlap.begin(), overlap.end(), [&](double o) { return o > 4 * statistics.mean; });
+  if (last - overlap.begin() <= k) last = overlap.end();
+  std::nth_element(overlap.begin(), overlap.begin() + k, last, std::greater<>());
   statistics.p999 = overlap[k];
   statistics.max = *std::max_element(overlap.begin(), overlap.begin() + k + 1);
   return statistics;
