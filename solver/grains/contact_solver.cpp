@@ -168,14 +168,22 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
 #pragma omp parallel num_threads(team.threads) if (team.threads > 1)
   {
     const int me = omp_get_thread_num(), all = omp_get_num_threads();
+    const auto meet = [all] {
+      if (all == 1) return;  // A barrier of one would still be a system call.
+#pragma omp barrier
+    };
     Laps laps(profile, me == 0);
     // A thread keeps its tiles, so that they stay in its cache.
     const std::int32_t first_tile = tiles * me / all, last_tile = tiles * (me + 1) / all;
     const auto groups_from = [&](std::int32_t tile) { return std::min(tile * (kTileGrains / 4), groups); };
+    // So does it with the contacts between tiles, as far as their grains are its own.
     const auto for_chunks_between = [&](std::int32_t colour, auto&& work) {
       const Colour& c = blocks.colour[colour];
-      for (std::int32_t k = me; k < chunks_in(colour); k += all)
-        work(k, c.first + k * kBlocksPerChunk, std::min(c.first + (k + 1) * kBlocksPerChunk, c.first_wall));
+      for (std::int32_t k = 0; k < chunks_in(colour); ++k) {
+        const std::int32_t first = c.first + k * kBlocksPerChunk;
+        const std::int32_t tile = body_at(blocks.block[first].i[0]) / kTileGrains;
+        if (first_tile <= tile && tile < last_tile) work(k, first, std::min(first + kBlocksPerChunk, c.first_wall));
+      }
     };
 
     // Detection: normals and gaps, and the velocity change by the impulses kept from the last step.
@@ -184,10 +192,10 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
         system.before[i] = {0, 0, 0, system.before[i].half_mass};
       refresh(first_block(blocks, tile), first_block(blocks, tile + 1));
     }
-#pragma omp barrier
+    meet();
     for (std::int32_t colour = first_between; colour < colours; ++colour) {
       for_chunks_between(colour, [&](std::int32_t, std::int32_t first, std::int32_t last) { refresh(first, last); });
-#pragma omp barrier
+      meet();
     }
 #pragma omp master
     {
@@ -197,7 +205,7 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
         remember_approach(system, body, body && body_path.empty() ? body->velocity : driven);
       }
     }
-#pragma omp barrier
+    meet();
     laps.lap(in_detection);
 
     for (int k = 0; k < law.substeps; ++k) {
@@ -222,7 +230,7 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
         else
           body->velocity = body->velocity + h * body_push(*body, law) + body->inverse_mass * kept_impulse(*body);
       }
-#pragma omp barrier
+      meet();
       laps.lap(in_tiles);
 
       // Contacts between tiles, colour by colour.
@@ -233,7 +241,7 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
           if (keep_impulses) keep(first, last, k == 0);
         });
         first_sum += chunks_in(colour);
-#pragma omp barrier
+        meet();
       }
       laps.lap(in_between);
 
@@ -253,7 +261,7 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
         }
         body->moved = body->moved + h * body->velocity;
       }
-#pragma omp barrier
+      meet();
       laps.lap(in_pile);
     }
 
