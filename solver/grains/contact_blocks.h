@@ -39,6 +39,14 @@ struct alignas(64) ContactBlock {
   Real pt[kLanes];         ///< tangential impulse [N s/m], |pt| <= mu pn
 };
 
+/// What the non-smooth method keeps of a block within a step.
+template <class Real>
+struct alignas(64) Iterate {
+  Real bias[kLanes] = {};    ///< v_n + bias >= 0 is asked of each contact [m/s]
+  Real old_pn[kLanes] = {};  ///< impulses one sweep ago [N s/m]
+  Real old_pt[kLanes] = {};
+};
+
 /// Impulses of a block's contacts, summed over the sub-steps of a step.
 struct alignas(64) StepImpulse {
   double normal[kLanes] = {};      ///< [N s/m]

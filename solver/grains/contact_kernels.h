@@ -35,6 +35,13 @@ struct BodySums {
   double lift = 0;      ///< vertical contact impulse of the sub-step before [N s/m]
 };
 
+/// Sums of the non-smooth kernels.
+struct SolveSums {
+  double residual = 0;  ///< sum of squared velocity changes, normal and tangential [m2/s2]
+  double touching = 0;  ///< contacts with an impulse
+  double work = 0;      ///< of the impulses on the relative motion [J/m]; by assess()
+};
+
 /// What decides whether a block may rest.
 struct Nearness {
   double margin;   ///< closing in this step that does not come from the bodies' own velocities [m]
@@ -66,6 +73,22 @@ struct ContactKernels {
   /// which per body is the contacts' velocity change of the sub-step before: v <- v + (v - before).
   void (*advance)(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last, Real h,
                   Real gravity, BodySums* sums);
+
+  // Non-smooth method.
+
+  /// Bodies of groups [first, last): v <- v + momentum (v - v_old), v_old <- v. The old velocities stand in the drift.
+  void (*extrapolate)(BodyGroup<Real>* bodies, std::int32_t first, std::int32_t last, Real momentum);
+
+  /// One Gauss-Seidel sweep over blocks [first, last), which starts from p + momentum (p - p_old) and leaves p in p_old.
+  /// `sums` are added to.
+  void (*solve)(ContactBlock<Real>* block, Iterate<Real>* iterate, const std::uint8_t* active, std::int32_t first,
+                std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real momentum, SolveSums* sums);
+
+  /// Residual of blocks [first, last) at the present impulses and velocities, nothing moved (natural map), and the
+  /// impulses' work on the mean of the velocities now and those in `before`. `sums` are added to.
+  void (*assess)(const ContactBlock<Real>* block, const Iterate<Real>* iterate, const std::uint8_t* active,
+                 std::int32_t first, std::int32_t last, const BodyGroup<Real>* bodies, const Before<Real>* before,
+                 Real friction, SolveSums* sums);
 };
 
 /// Instruction sets, from the least to the most demanding.

@@ -15,6 +15,10 @@ template <class Real>
 inline Real* numbers(Before<Real>* records) {
   return reinterpret_cast<Real*>(records);
 }
+template <class Real>
+inline const Real* numbers(const Before<Real>* records) {
+  return reinterpret_cast<const Real*>(records);
+}
 inline const double* numbers(const Disc* records) { return reinterpret_cast<const double*>(records); }
 
 /// Adds sixteen lanes in their order.
@@ -298,6 +302,157 @@ void advance(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, 
 }
 
 template <class Real>
+void extrapolate(BodyGroup<Real>* bodies, std::int32_t first, std::int32_t last, Real momentum) {
+  using V = typename Lanes<Real>::V;
+  constexpr int W = Lanes<Real>::kWidth;
+  const Row<Real> row(momentum, 0);
+  for (std::int32_t group = first; group < last; ++group) {
+    Real* motion = numbers(bodies + group);
+    Real* old = motion + kLanes;
+    for (int k = 0; k < kLanes; k += W) {
+      const V now = load<V>(motion + k);
+      store(motion + k, V(now + load<V>(row.time + k) * (now - load<V>(old + k))));
+      store(old + k, now);
+    }
+  }
+}
+
+template <class Real>
+void solve(ContactBlock<Real>* blocks, Iterate<Real>* iterates, const std::uint8_t* active, std::int32_t first,
+           std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real momentum, SolveSums* sums) {
+  using V = typename Lanes<Real>::V;
+  constexpr int W = Lanes<Real>::kWidth;
+  constexpr int P = kLanes / W;
+  Real* motions = numbers(bodies);
+  const V zero = {}, one = zero + Real(1), third = zero + Real(1) / Real(3);
+  const V mu = zero + friction, beta = zero + momentum;
+
+  V residual[P], touching[P];
+  for (int p = 0; p < P; ++p) residual[p] = touching[p] = zero;
+
+  for (std::int32_t b = first; b < last; ++b) {
+    if (!active[b]) continue;
+    ContactBlock<Real>& block = blocks[b];
+    Iterate<Real>& iterate = iterates[b];
+
+    V vxi[P], vyi[P], ui[P], mi[P], vxj[P], vyj[P], uj[P], mj[P];
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      const int k = p * W;
+      gather<Real>(motions, block.i + k, vxi[p], vyi[p], ui[p], mi[p]);
+      gather<Real>(motions, block.j + k, vxj[p], vyj[p], uj[p], mj[p]);
+    }
+
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      const int k = p * W;
+      const V nx = load<V>(block.nx + k), ny = load<V>(block.ny + k), mass = load<V>(block.mass + k);
+      const V kept_pn = load<V>(block.pn + k), kept_pt = load<V>(block.pt + k);
+      const V pn = kept_pn + beta * (kept_pn - load<V>(iterate.old_pn + k));
+      const V pt = kept_pt + beta * (kept_pt - load<V>(iterate.old_pt + k));
+
+      const V wx = vxj[p] - vxi[p], wy = vyj[p] - vyi[p];
+      const V vn = nx * wx + ny * wy;
+      const V vt = (nx * wy - ny * wx) - (ui[p] + uj[p]);
+
+      // Signorini, then Coulomb: each exact for its contact, because the local problem is diagonal.
+      const V new_pn = larger(V(pn - mass * (vn + load<V>(iterate.bias + k))), zero);
+      const V cone = mu * new_pn;
+      const V new_pt = smaller(larger(V(pt - mass * third * vt), V(zero - cone)), cone);
+      const V dpn = new_pn - pn, dpt = new_pt - pt;
+
+      store(iterate.old_pn + k, kept_pn);
+      store(iterate.old_pt + k, kept_pt);
+      store(block.pn + k, new_pn);
+      store(block.pt + k, new_pt);
+
+      const V px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, two_pt = dpt + dpt;
+      vxi[p] = vxi[p] - mi[p] * px, vyi[p] = vyi[p] - mi[p] * py, ui[p] = ui[p] - mi[p] * two_pt;
+      vxj[p] = vxj[p] + mj[p] * px, vyj[p] = vyj[p] + mj[p] * py, uj[p] = uj[p] - mj[p] * two_pt;
+
+      const V inverse_mass = mi[p] + mj[p];
+      const V dvn = inverse_mass * dpn, dvt = (inverse_mass + inverse_mass + inverse_mass) * dpt;
+      residual[p] = residual[p] + (dvn * dvn + dvt * dvt);
+      touching[p] = touching[p] + (new_pn > zero ? one : zero);
+    }
+
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      const int k = p * W;
+      scatter<Real>(motions, block.i + k, vxi[p], vyi[p], ui[p], mi[p]);
+      scatter<Real>(motions, block.j + k, vxj[p], vyj[p], uj[p], mj[p]);
+    }
+  }
+
+  alignas(64) Real lane[kLanes];
+  for (int p = 0; p < P; ++p) store(lane + p * W, residual[p]);
+  sums->residual += ordered_sum(lane);
+  for (int p = 0; p < P; ++p) store(lane + p * W, touching[p]);
+  sums->touching += ordered_sum(lane);
+}
+
+template <class Real>
+void assess(const ContactBlock<Real>* blocks, const Iterate<Real>* iterates, const std::uint8_t* active,
+            std::int32_t first, std::int32_t last, const BodyGroup<Real>* bodies, const Before<Real>* before,
+            Real friction, SolveSums* sums) {
+  using V = typename Lanes<Real>::V;
+  constexpr int W = Lanes<Real>::kWidth;
+  constexpr int P = kLanes / W;
+  const Real* motions = numbers(bodies);
+  const Real* olds = numbers(before);
+  const V zero = {}, one = zero + Real(1), half = zero + Real(0.5), third = zero + Real(1) / Real(3);
+  const V mu = zero + friction;
+
+  V residual[P], touching[P], work[P];
+  for (int p = 0; p < P; ++p) residual[p] = touching[p] = work[p] = zero;
+
+  for (std::int32_t b = first; b < last; ++b) {
+    if (!active[b]) continue;
+    const ContactBlock<Real>& block = blocks[b];
+    alignas(64) std::int32_t i[kLanes], j[kLanes];
+    for (int k = 0; k < kLanes; ++k) {
+      i[k] = 4 * body_at(block.i[k]);
+      j[k] = 4 * body_at(block.j[k]);
+    }
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      const int k = p * W;
+      V vxi, vyi, ui, mi, vxj, vyj, uj, mj, unused;
+      gather<Real>(motions, block.i + k, vxi, vyi, ui, mi);
+      gather<Real>(motions, block.j + k, vxj, vyj, uj, mj);
+      const V nx = load<V>(block.nx + k), ny = load<V>(block.ny + k), mass = load<V>(block.mass + k);
+      const V pn = load<V>(block.pn + k), pt = load<V>(block.pt + k);
+      const V wx = vxj - vxi, wy = vyj - vyi;
+      const V vn = nx * wx + ny * wy, vt = (nx * wy - ny * wx) - (ui + uj);
+
+      const V new_pn = larger(V(pn - mass * (vn + load<V>(iterates[b].bias + k))), zero);
+      const V cone = mu * new_pn;
+      const V new_pt = smaller(larger(V(pt - mass * third * vt), V(zero - cone)), cone);
+      const V inverse_mass = mi + mj;
+      const V dvn = inverse_mass * (new_pn - pn);
+      const V dvt = (inverse_mass + inverse_mass + inverse_mass) * (new_pt - pt);
+      residual[p] = residual[p] + (dvn * dvn + dvt * dvt);
+      touching[p] = touching[p] + (pn > zero ? one : zero);
+
+      gather<Real>(olds, i + k, vxi, vyi, ui, unused);
+      gather<Real>(olds, j + k, vxj, vyj, uj, unused);
+      const V ox = vxj - vxi, oy = vyj - vyi;
+      const V on = nx * ox + ny * oy, ot = (nx * oy - ny * ox) - (ui + uj);
+      work[p] = work[p] + half * (pn * (vn + on) + pt * (vt + ot));
+    }
+  }
+
+  alignas(64) Real lane[kLanes];
+  for (int p = 0; p < P; ++p) store(lane + p * W, residual[p]);
+  sums->residual += ordered_sum(lane);
+  for (int p = 0; p < P; ++p) store(lane + p * W, touching[p]);
+  sums->touching += ordered_sum(lane);
+  for (int p = 0; p < P; ++p) store(lane + p * W, work[p]);
+  sums->work += ordered_sum(lane);
+}
+
+template <class Real>
 constexpr ContactKernels<Real> table(const char* name) {
-  return {name, &refresh<Real>, &sweep<Real>, &begin<Real>, &advance<Real>};
+  return {name,           &refresh<Real>,     &sweep<Real>, &begin<Real>,
+          &advance<Real>, &extrapolate<Real>, &solve<Real>, &assess<Real>};
 }

@@ -1,17 +1,12 @@
-// The production contact solver: sub-stepped soft sequential impulses.
+// The contact solvers behind one signature.
 //
 // For every contact, normal n from i to j, gap g, impulses p_n >= 0 and |p_t| <= mu p_n (formulation.md 2):
 //
 //   v_n = n.(v_j - v_i),   v_t = t.(v_j - v_i) - (u_i + u_j),   u = r omega
 //
-// One step: contacts are detected once (normals stay), then `substeps` times with h = dt/substeps
-//   1. v += h g + (the contacts' velocity change of the sub-step before)          warm start, per body
-//   2. one Gauss-Seidel sweep in the order of the colours: g > 0 may close but not overshoot, g < 0 is pushed apart as a
-//      damped spring of frequency f and ratio zeta (Catto's soft constraint, Box2D v3)
-//   3. x += h v
-//
-// For discs the local 2x2 problem is diagonal (tangential mass 1/3 of the normal one), so each contact is solved exactly.
-// First order in h. Neglected: rolling resistance, the turning of normals within a step.
+// A step detects contacts once (normals stay) and solves for the impulses by one of two methods: sub-stepped soft
+// sequential impulses (soft_impulses.h, production) or non-smooth contact dynamics (nonsmooth.h, the thesis' method).
+// Both work on the same coloured blocks; brute_force.h does the same for all pairs, slowly and obviously.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +28,12 @@ struct Box {
   double left = 0, right = 0, base = 0;  ///< [m]
 };
 
+/// Non-smooth contact dynamics: how far the Gauss-Seidel sweeps of a step go.
+struct NonSmooth {
+  int sweeps = 100;      ///< at most, per step
+  double tolerance = 0;  ///< rms velocity that a sweep changes [m/s] below which no further one is made
+};
+
 /// What the contacts obey during a run.
 struct ContactLaw {
   double gravity = 9.81;         ///< g [m/s2], downwards
@@ -40,10 +41,17 @@ struct ContactLaw {
   double friction_wall = 0;      ///< [-]
   double restitution = 0;        ///< e [-]
   double step = 5e-4;            ///< dt [s]
+  std::optional<NonSmooth> nonsmooth;  ///< absent: soft impulses, to which the rest belongs
   int substeps = 10;
   double stiffness = 0.125;      ///< f h [-]
   double damping = 10;           ///< zeta [-]
 };
+
+/// Sub-steps of a step, each with a velocity of its own: one for the non-smooth method.
+inline int substeps(const ContactLaw& law) { return law.nonsmooth ? 1 : law.substeps; }
+
+/// The largest speed at which an overlap is taken back: a tenth of the smallest radius per step [m/s].
+inline double push_speed(const ContactLaw& law, double smallest_radius) { return 0.1 * smallest_radius / law.step; }
 
 /// Impulses on one obstacle since they were last cleared, as the grains press it [N s/m].
 struct Impulse {
@@ -62,7 +70,10 @@ struct ContactTotals {
 struct ContactReport {
   bool finite = true;        ///< every path is a number
   double longest_path = 0;   ///< of a grain in this step [m]
-  double residual = 0;       ///< rms normal velocity that a sweep still changed, per touching contact [m/s]
+  /// rms velocity per touching contact that solving it once more would change [m/s]: normal and tangential, all at once
+  /// from the same state, for the non-smooth method; normal, within the last sweep, for soft impulses.
+  double residual = 0;
+  int sweeps = 0;            ///< over all contacts
   bool rebuilt = false;      ///< the neighbour list was made anew
 };
 
@@ -81,6 +92,7 @@ struct ContactSystem {
 
   // Derived.
   base::AlignedVector<Before<Real>> before;  ///< (grains, filled up to a multiple of four, and wall points)
+  base::AlignedVector<Iterate<Real>> iterate;  ///< of the non-smooth method, (blocks); empty for soft impulses
   std::vector<SweepSums> sweep_sums;
   std::vector<BodySums> body_sums;
   std::vector<double> approach, body_approach;  ///< normal velocities at the start of the step, where e > 0 [m/s]
@@ -109,8 +121,9 @@ void enclose(ContactSystem<Real>& system, Grains& grains);
 template <class Real>
 void refresh_derived(ContactSystem<Real>& system, Grains& grains);
 
-/// One step. `body`: the rigid body, or null; `body_path`: its downward path at the end of each sub-step, counted from
-/// the start of the step [m], (substeps); empty for a free body. `keep_impulses`: for touching_contacts().
+/// One step by the law's method. `body`: the rigid body, or null; `body_path`: its downward path at the end of each
+/// sub-step, counted from the start of the step [m], (substeps(law)); empty for a free body. `keep_impulses`: for
+/// touching_contacts().
 template <class Real>
 ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& box, const ContactLaw& law,
                         RigidBody* body, std::span<const double> body_path, bool keep_impulses, ContactTotals& totals,

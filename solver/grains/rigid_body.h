@@ -15,6 +15,9 @@ struct BodyContact {
   double gap = 0;         ///< at the start of the step [m]
   double pn = 0, pt = 0;            ///< impulses of the last sub-step [N s/m]
   double step_pn = 0, step_pt = 0;  ///< summed over the sub-steps of the last step [N s/m]
+  // Of the non-smooth method, within a step.
+  double bias = 0;                  ///< v_n + bias >= 0 is asked for [m/s]
+  double old_pn = 0, old_pt = 0;    ///< impulses one sweep ago [N s/m]
 };
 
 /// A convex body that many grains touch at once. Its contacts share it, so they cannot be coloured: they are solved one

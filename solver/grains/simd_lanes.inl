@@ -48,13 +48,13 @@ inline __attribute__((always_inline)) V roots(V a) {
 // Records k = 0..W-1 stand at base + at[k]; their four fields go to a, b, c, d.
 template <class Real, class V>
 inline __attribute__((always_inline)) void gather(const Real* base, const std::int32_t* at, V& a, V& b, V& c, V& d) {
-  for (int k = 0; k < Lanes<Real>::kWidth; ++k) {
-    const Real* record = base + at[k];
-    a[k] = record[0];
-    b[k] = record[1];
-    c[k] = record[2];
-    d[k] = record[3];
-  }
+  alignas(V) Real field[4][Lanes<Real>::kWidth];
+  for (int k = 0; k < Lanes<Real>::kWidth; ++k)
+    for (int number = 0; number < 4; ++number) field[number][k] = base[at[k] + number];
+  a = load<V>(field[0]);
+  b = load<V>(field[1]);
+  c = load<V>(field[2]);
+  d = load<V>(field[3]);
 }
 template <class Real, class V>
 inline __attribute__((always_inline)) void scatter(Real* base, const std::int32_t* at, V a, V b, V c, V d) {

@@ -30,7 +30,7 @@ StepReport step(Simulation& sim, bool keep_impulses) {
 
   // 2. Pile position -> d.
   std::vector<double> path;
-  if (sim.pile) path = path_in_step(*sim.pile, sim.clock, sim.law.substeps);
+  if (sim.pile) path = path_in_step(*sim.pile, sim.clock, grains::substeps(sim.law));
 
   // 1. Time integration of the grains against walls and pile -> x_p, v_p, impulses.
   grains::RigidBody* body = sim.pile ? &sim.pile->body : nullptr;

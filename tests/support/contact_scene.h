@@ -62,8 +62,8 @@ struct ContactScene {
 
   void step() {
     std::vector<double> path;
-    const double h = law.step / law.substeps;
-    for (int k = 0; body && body->inverse_mass == 0 && k < law.substeps; ++k) path.push_back(body_speed * h * (k + 1));
+    const double h = law.step / substeps(law);
+    for (int k = 0; body && body->inverse_mass == 0 && k < substeps(law); ++k) path.push_back(body_speed * h * (k + 1));
     report = integrate(system, grains, box, law, body ? &*body : nullptr, path, true, totals, team, profile);
   }
   void steps(int count) {

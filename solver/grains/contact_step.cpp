@@ -1,0 +1,135 @@
+#include "solver/grains/contact_step.h"
+
+#include "solver/grains/body_contacts.h"
+
+namespace seapile::grains {
+namespace {
+
+/// True when some pair that is not listed might touch during the coming step.
+template <class Real>
+bool list_is_worn(const ContactSystem<Real>& system, const Grains& grains, double reach) {
+  if (system.listed.size() != grains.count()) return true;
+  // Cheap bound first: no gap has closed by more than this.
+  if (system.closing - system.listed_closing + reach <= system.skin) return false;
+  double longest = 0;
+  for (std::size_t i = 0; i < grains.count(); ++i) {
+    const double dx = grains.disc[i].x - system.listed[i].x, dy = grains.disc[i].y - system.listed[i].y;
+    longest = std::max(longest, dx * dx + dy * dy);
+  }
+  return 2 * std::sqrt(longest) + reach > system.skin;
+}
+
+template <class Real>
+double squared_speed(const Motion<Real>& m) {
+  const double vx = static_cast<double>(m.vx), vy = static_cast<double>(m.vy);
+  return vx * vx + vy * vy;
+}
+
+/// The larger of both; NaN when one of them is.
+double larger_or_nan(double a, double b) { return a < b || std::isnan(b) ? b : a; }
+
+}  // namespace
+
+template <class Real>
+Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law,
+                         const RigidBody* body, std::span<const double> body_path) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < grains.count(); ++i)
+    fastest = std::max(fastest, squared_speed(system.motion(static_cast<std::int32_t>(i))));
+  Closing closing;
+  closing.body_speed =
+      body_path.empty() ? (body ? norm(body->velocity) : 0) : std::abs(body_path.back()) / law.step;
+  closing.margin =
+      closing.body_speed * law.step + 4 * law.gravity * law.step * law.step + 0.01 * system.smallest_radius;
+  closing.reach = 6 * law.step * std::max(std::sqrt(fastest), closing.body_speed) + closing.margin;
+  return closing;
+}
+
+template <class Real>
+bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
+                double step) {
+  // The lists of the body wear by its own path too.
+  const bool worn = list_is_worn(system, grains, std::min(closing.reach, 0.5 * system.skin));
+  if (worn) list_contacts(system, grains, box);
+  if (body && (worn || body->listed_travel + closing.body_speed * step > system.skin))
+    list_body_contacts(*body, grains, 3 * system.skin);
+  place_wall_points(system, grains, box);
+  return worn;
+}
+
+template <class Real>
+void move_places(ContactSystem<Real>& system, Grains& grains, std::int32_t tile, double h) {
+  const auto count = static_cast<std::int32_t>(grains.count());
+  double longest = 0;
+  for (std::int32_t i = tile * kTileGrains; i < std::min((tile + 1) * kTileGrains, count); ++i) {
+    const Motion<Real>& now = system.motion(i);
+    const double dx = static_cast<double>(system.drift(i).dx) + h * static_cast<double>(now.vx);
+    const double dy = static_cast<double>(system.drift(i).dy) + h * static_cast<double>(now.vy);
+    grains.disc[i].x += dx;
+    grains.disc[i].y += dy;
+    // A place that is no number makes the path none, too.
+    const double square = dx * dx + dy * dy + 0 * (grains.disc[i].x + grains.disc[i].y);
+    longest = larger_or_nan(longest, square);
+  }
+  system.path[tile] = longest;
+}
+
+void move_body(RigidBody& body) {
+  body.position = body.position + body.moved;
+  body.listed_travel += norm(body.moved);
+  body.moved = {};
+}
+
+template <class Real>
+void close_step(ContactSystem<Real>& system, ContactTotals& totals, ContactReport& report) {
+  const ContactBlocks<Real>& blocks = system.blocks;
+  for (std::size_t k = 0; k < blocks.wall.size(); ++k) {
+    const std::int32_t slot = blocks.wall_slot[k];
+    const double pn = blocks.step_impulse[slot / kLanes].normal[slot % kLanes];
+    const double pt = blocks.step_impulse[slot / kLanes].tangential[slot % kLanes];
+    // n points from the grain to the wall, t = (-n_y, n_x).
+    if (blocks.wall[k] == Wall::left) totals.left.x -= pn, totals.left.y -= pt;
+    if (blocks.wall[k] == Wall::right) totals.right.x += pn, totals.right.y += pt;
+    if (blocks.wall[k] == Wall::base) totals.base.y -= pn, totals.base.x += pt;
+  }
+  double longest = 0;
+  for (const double p : system.path) longest = larger_or_nan(longest, p);
+  report.longest_path = std::sqrt(longest);
+  system.closing += 2 * report.longest_path;
+  report.finite = std::isfinite(longest);
+}
+
+base::Vec2 body_push(const RigidBody& body, const ContactLaw& law) {
+  return body.inverse_mass * body.force + base::Vec2{0, -law.gravity};
+}
+
+base::Vec2 kept_impulse(const RigidBody& body) {
+  base::Vec2 kept;
+  for (const BodyContact& c : body.contact)
+    kept = kept + base::Vec2{c.pn * c.nx - c.pt * c.ny, c.pn * c.ny + c.pt * c.nx};
+  return kept;
+}
+
+template <class Real>
+void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::int32_t last, bool afresh) {
+  for (std::int32_t b = first; b < last; ++b) {
+    if (afresh) blocks.step_impulse[b] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+      blocks.step_impulse[b].normal[lane] += static_cast<double>(blocks.block[b].pn[lane]);
+      blocks.step_impulse[b].tangential[lane] += static_cast<double>(blocks.block[b].pt[lane]);
+    }
+  }
+}
+
+#define SEAPILE_INSTANTIATE(Real)                                                                                      \
+  template Closing expected_closing(const ContactSystem<Real>&, const Grains&, const ContactLaw&, const RigidBody*,    \
+                                    std::span<const double>);                                                          \
+  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double);             \
+  template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                                      \
+  template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                                      \
+  template void keep_step_impulses(ContactBlocks<Real>&, std::int32_t, std::int32_t, bool);
+SEAPILE_INSTANTIATE(float)
+SEAPILE_INSTANTIATE(double)
+#undef SEAPILE_INSTANTIATE
+
+}  // namespace seapile::grains

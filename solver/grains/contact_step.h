@@ -1,0 +1,131 @@
+// What every contact method does around its solve: lists that hold all contacts of the step, a thread's share of the
+// blocks, places at the end, and what the walls have felt.
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <span>
+
+#include "solver/base/profile.h"
+#include "solver/grains/contact_kernels.h"
+#include "solver/grains/contact_lists.h"
+#include "solver/grains/contact_solver.h"
+
+namespace seapile::grains {
+
+/// How far gaps may close within the coming step.
+struct Closing {
+  double body_speed = 0;  ///< of the rigid body [m/s]
+  double margin = 0;      ///< what does not come from the bodies' own velocities [m]
+  double reach = 0;       ///< any gap, at three times the largest speed of both bodies, along both axes [m]
+};
+template <class Real>
+Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law,
+                         const RigidBody* body, std::span<const double> body_path);
+
+/// Makes the lists anew where they might miss a contact of the coming step, and places the points of the walls. True
+/// when the neighbour list was made anew.
+template <class Real>
+bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
+                double step);
+
+/// Adds the path of a step, drift + h v, to the places of a tile's grains; sets the tile's longest squared path.
+template <class Real>
+void move_places(ContactSystem<Real>& system, Grains& grains, std::int32_t tile, double h);
+
+/// Moves a body by its path in the step.
+void move_body(RigidBody& body);
+
+/// Adds the step's impulses to the walls' totals and says how far grains went.
+template <class Real>
+void close_step(ContactSystem<Real>& system, ContactTotals& totals, ContactReport& report);
+
+/// Acceleration of a free body but for its contacts.
+base::Vec2 body_push(const RigidBody& body, const ContactLaw& law);
+
+/// The impulse that a body's contacts keep from the solve before.
+base::Vec2 kept_impulse(const RigidBody& body);
+
+/// Adds the impulses of blocks [first, last) to those of the step, or begins these afresh.
+template <class Real>
+void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::int32_t last, bool afresh);
+
+/// Chunks of the contacts between tiles of one colour.
+template <class Real>
+std::int32_t chunk_count(const ContactBlocks<Real>& blocks, std::int32_t colour) {
+  const Colour& c = blocks.colour[colour];
+  return (c.first_wall - c.first + kBlocksPerChunk - 1) / kBlocksPerChunk;
+}
+
+/// What one thread of a team works on: whole tiles, so that they stay in its cache, and the contacts between tiles that
+/// begin in them.
+template <class Real>
+class Share {
+ public:
+  Share(const ContactBlocks<Real>& blocks, std::size_t grain_count)
+      : blocks_(blocks), me_(omp_get_thread_num()), all_(omp_get_num_threads()), groups_(first_point(grain_count) / 4) {
+    const std::int32_t tiles = tile_count(grain_count);
+    first_tile = tiles * me_ / all_;
+    last_tile = tiles * (me_ + 1) / all_;
+  }
+
+  std::int32_t first_tile = 0, last_tile = 0;
+
+  bool leads() const { return me_ == 0; }
+
+  /// Waits for the others. A barrier of one would still be a system call.
+  void meet() const {
+    if (all_ == 1) return;
+#pragma omp barrier
+  }
+
+  /// First group of four bodies of a tile; the end of the last one's.
+  std::int32_t first_group(std::int32_t tile) const { return std::min(tile * (kTileGrains / 4), groups_); }
+
+  /// First block of a tile's own contacts; of the contacts between tiles when `tile` is the number of tiles.
+  std::int32_t first_block(std::int32_t tile) const {
+    const std::int32_t colour = blocks_.tile_colour[tile];
+    return colour < static_cast<std::int32_t>(blocks_.colour.size()) ? blocks_.colour[colour].first
+                                                                     : static_cast<std::int32_t>(blocks_.block.size());
+  }
+
+  /// Calls work(chunk, first block, last block) for this thread's part of a colour between tiles.
+  void between(std::int32_t colour, auto&& work) const {
+    const Colour& c = blocks_.colour[colour];
+    for (std::int32_t k = 0; k < chunk_count(blocks_, colour); ++k) {
+      const std::int32_t first = c.first + k * kBlocksPerChunk;
+      const std::int32_t tile = body_at(blocks_.block[first].i[0]) / kTileGrains;
+      if (first_tile <= tile && tile < last_tile) work(k, first, std::min(first + kBlocksPerChunk, c.first_wall));
+    }
+  }
+
+ private:
+  const ContactBlocks<Real>& blocks_;
+  int me_, all_;
+  std::int32_t groups_;
+};
+
+/// Adds the seconds since the last lap to a part; only the first thread of a team measures.
+class Laps {
+ public:
+  Laps(base::Profile& profile, bool measures) : profile_(profile), measures_(measures) {
+    if (measures_) last_ = Clock::now();
+  }
+  void lap(std::size_t part) {
+    if (!measures_) return;
+    const auto now = Clock::now();
+    profile_.add(part, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  base::Profile& profile_;
+  bool measures_;
+  Clock::time_point last_;
+};
+
+}  // namespace seapile::grains
