@@ -12,6 +12,7 @@
 
 #include "runner/study/field_reader.h"
 #include "runner/study/json_value.h"
+#include "runner/study/resolved.h"
 #include "runner/study/sha256.h"
 #include "runner/study/study.h"
 
@@ -76,9 +77,21 @@ std::string member_text(const T& member) {
 
 template <class Spec>
 Members members_of(const Spec& spec) {
+  Members defaults;  // of the fields that were added later
+  const Spec untouched;
+  const auto keep_default = [&](const base::Field& field, const auto& member) {
+    if (field.later) defaults[std::string(field.key)] = member_text(member);
+  };
+  fields(keep_default, untouched);
   Members members;
   const auto visit = [&](const base::Field& field, const auto& member) {
-    members[std::string(field.key)] = member_text(member);
+    std::string text = member_text(member);
+    const std::string key(field.key);
+    if (const auto neutral = defaults.find(key); neutral != defaults.end() && neutral->second == text) return;
+    if constexpr (std::is_same_v<Spec, grains::ContactSpec>) {
+      if (!uses(spec, key)) return;
+    }
+    members[key] = std::move(text);
   };
   fields(visit, spec);
   return members;

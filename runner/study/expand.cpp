@@ -165,14 +165,16 @@ class Expander {
                               fmt::format("{} is not used where {}", join_path(column.path), why_not),
                               "exclude such cases, or write it into the values of the other axis", ""});
     };
-    const auto why_not_used = [&] {
-      return std::string(draft.scene.pile ? "the grains come from bed.file" : "there is no pile");
+    const auto why_not_used = [&](const std::string& path) -> std::string {
+      if (path.starts_with("bed.preparation.contact") || (path.starts_with("contact") && draft.scene.pile))
+        return "the contact solver has no such member";
+      return draft.scene.pile ? "the grains come from bed.file" : "there is no pile";
     };
     for (const auto& [column, why_not] : draft.unused) report(*column, why_not);
     if (draft.problems.empty() && draft.unused.empty()) {
       for (const Axis& axis : grammar_.axes) {
         for (const Column& column : axis.columns) {
-          if (!used.contains(join_path(column.path))) report(column, why_not_used());
+          if (!used.contains(join_path(column.path))) report(column, why_not_used(join_path(column.path)));
         }
       }
     }

@@ -1,5 +1,6 @@
 #include "runner/study/resolved.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "runner/study/field_reader.h"
@@ -52,6 +53,12 @@ void erase_part(ResolvedScene& resolved, const std::string& path) {
 
 }  // namespace
 
+bool uses(const grains::ContactSpec& contact, std::string_view member) {
+  if (member == "precision") return contact.solver == grains::Solver::blocks;
+  const bool soft = std::holds_alternative<grains::SoftMethod>(contact.method);
+  return soft || std::ranges::find(kOfSoftMethod, member) == kOfSoftMethod.end();
+}
+
 ResolvedScene resolve_all(const scene::SceneSpec& scene) {
   ResolvedScene resolved;
   resolve_member(scene, "", resolved);
@@ -60,6 +67,14 @@ ResolvedScene resolve_all(const scene::SceneSpec& scene) {
 
 ResolvedScene resolve_used(const scene::SceneSpec& scene) {
   ResolvedScene resolved = resolve_all(scene);
+  const auto drop_unused = [&](const grains::ContactSpec& contact, const std::string& path) {
+    const auto visit = [&](const base::Field& field, const auto&) {
+      if (!uses(contact, field.key)) erase_part(resolved, path + "." + std::string(field.key));
+    };
+    fields(visit, contact);
+  };
+  drop_unused(scene.contact, "contact");
+  drop_unused(scene.bed.preparation.contact, "bed.preparation.contact");
   if (!scene.pile) erase_part(resolved, "contact");
   if (!scene.bed.file.empty()) {
     for (const char* path : kDecidedByFile) erase_part(resolved, path);

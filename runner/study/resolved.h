@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -23,10 +24,17 @@ using ResolvedScene = std::map<std::string, Resolved>;
 /// What a grain file decides: the study must leave it alone.
 inline constexpr std::array kDecidedByFile = {"bed.grains.count", "bed.grains.radius", "bed.seed"};
 
+/// What only soft impulses have: for the non-smooth method these members of a contact solver do not exist.
+inline constexpr std::array kOfSoftMethod = {"substeps", "stiffness", "damping"};
+
+/// Whether a contact solver uses one of its own members.
+bool uses(const grains::ContactSpec& contact, std::string_view member);
+
 /// Every value of the scene. A variant's path holds the name of its alternative.
 ResolvedScene resolve_all(const scene::SceneSpec& scene);
 
-/// Every value that the scene uses: without a pile no `contact`, with a grain file nothing that the file decides.
+/// Every value that the scene uses: without a pile no `contact`, with a grain file nothing that the file decides, and of
+/// a contact solver what its method has.
 ResolvedScene resolve_used(const scene::SceneSpec& scene);
 
 /// The paths that are written in `value`, which stands at `path`: its leaves and empty objects.

@@ -45,10 +45,19 @@ struct Field {
   std::string_view unit;     ///< SI unit of the stored number: "m", "m/s", "rad", "-", ...; "" for what is not a number
   Range range;               ///< allowed values, in that unit; for a vector: of each element
   std::string_view meaning;  ///< one line, with the symbol
+  /// Added after cases had been stored: left out of the canonical text while it holds its default, which has to be what
+  /// was done before, so that old ids stay.
+  bool later = false;
 };
 
 /// Key and meaning of a member that is no number (a struct, a variant, a string, an enum).
-constexpr Field part(std::string_view key, std::string_view meaning) { return {key, "", {}, meaning}; }
+constexpr Field part(std::string_view key, std::string_view meaning) { return {key, "", {}, meaning, false}; }
+
+/// The same field, added after cases had been stored.
+constexpr Field later(Field field) {
+  field.later = true;
+  return field;
+}
 
 /// Accepts a spec, const or not.
 template <class T, class Spec>

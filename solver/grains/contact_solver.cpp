@@ -61,6 +61,7 @@ OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grai
       const double gap = static_cast<double>(block.gap[lane]);
       if (!(block.pn[lane] > 0) && !(gap < 0)) continue;
       const double ri = grains.disc[body_at(block.i[lane])].radius, rj = grains.disc[body_at(block.j[lane])].radius;
+      statistics.between_grains += rj > 0;
       overlap.push_back(-gap / (rj > 0 ? std::min(ri, rj) : ri));
     }
   }

@@ -147,6 +147,7 @@ std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>& system
 /// Overlaps of touching contacts.
 struct OverlapStatistics {
   std::int64_t touching = 0;
+  std::int64_t between_grains = 0;     ///< of the touching, those of two grains
   double max = 0, p999 = 0, mean = 0;  ///< share of the smaller radius [-]
 };
 template <class Real>

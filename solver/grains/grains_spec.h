@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "solver/base/fields.h"
 
@@ -10,6 +11,7 @@ namespace seapile::grains {
 
 using base::between;
 using base::Field;
+using base::later;
 using base::part;
 using base::positive;
 using base::SameAs;
@@ -56,13 +58,40 @@ void fields(auto& visit, SameAs<GrainsSpec> auto& grains) {
 /// Number format of the contact solver; positions are always double.
 enum class Precision { single_, double_ };
 
-/// How contacts are solved: sub-stepped soft sequential impulses.
+/// Sub-stepped soft sequential impulses, the production method.
+struct SoftMethod {
+  static constexpr const char* kName = "soft";
+  friend bool operator==(const SoftMethod&, const SoftMethod&) = default;
+};
+void fields(auto&, SameAs<SoftMethod> auto&) {}
+
+/// Non-smooth contact dynamics, the thesis' method.
+struct NonSmoothMethod {
+  static constexpr const char* kName = "nonsmooth";
+  std::int64_t sweeps = 100;  ///< over all contacts, at most, per step
+  double tolerance = 0;       ///< [m/s]: rms velocity changed by a sweep, below which no further one is made
+  friend bool operator==(const NonSmoothMethod&, const NonSmoothMethod&) = default;
+};
+void fields(auto& visit, SameAs<NonSmoothMethod> auto& method) {
+  visit(Field{"sweeps", "-", between(1, 100'000), "sweeps over all contacts, at most, per step"}, method.sweeps);
+  visit(Field{"tolerance", "m/s", between(0, 1), "rms velocity changed by a sweep, below which no further one is made"},
+        method.tolerance);
+}
+
+using Method = std::variant<SoftMethod, NonSmoothMethod>;
+
+/// Who solves: coloured blocks, or the slow reference that compares all with all.
+enum class Solver { blocks, brute_force };
+
+/// How contacts are solved.
 struct ContactSpec {
   double step = 5e-4;                        ///< dt [s], between two detections of contacts
   std::int64_t substeps = 10;                ///< of size h = dt/substeps
   Precision precision = Precision::single_;  ///< of the contact solver
   double stiffness = 0.125;                  ///< f h [-]: contact frequency f times sub-step
   double damping = 10;                       ///< zeta [-], damping ratio of a contact
+  Method method = SoftMethod{};              ///< substeps, stiffness and damping are the soft one's
+  Solver solver = Solver::blocks;
   friend bool operator==(const ContactSpec&, const ContactSpec&) = default;
 };
 void fields(auto& visit, SameAs<ContactSpec> auto& contact) {
@@ -71,6 +100,9 @@ void fields(auto& visit, SameAs<ContactSpec> auto& contact) {
   visit(part("precision", "number format of the contact solver"), contact.precision);
   visit(Field{"stiffness", "-", positive(0.25), "contact frequency times sub-step, f h"}, contact.stiffness);
   visit(Field{"damping", "-", positive(1000), "damping ratio zeta of a contact"}, contact.damping);
+  visit(later(part("method", "soft: sub-stepped soft impulses; nonsmooth: non-smooth contact dynamics")), contact.method);
+  visit(later(part("solver", "blocks: coloured blocks; brute_force: all pairs in natural order, double, few grains")),
+        contact.solver);
 }
 
 /// How the bed is brought to rest. A target solid fraction is reached through the friction used while settling.
@@ -90,6 +122,11 @@ void fields(auto& visit, SameAs<PreparationSpec> auto& preparation) {
 }
 
 }  // namespace seapile::grains
+
+template <>
+struct seapile::base::EnumNames<seapile::grains::Solver> {
+  static constexpr const char* values[] = {"blocks", "brute_force"};
+};
 
 template <>
 struct seapile::base::EnumNames<seapile::grains::Precision> {

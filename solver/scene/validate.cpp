@@ -23,6 +23,8 @@ constexpr double kLoosest = 0.75;
 // Solid fraction of a usual bed; with it the height of a bed is estimated, on the high side.
 constexpr double kUsual = 0.80;
 constexpr double kMostSteps = 1e9;
+// A step of the brute-force solver at this count takes as long as one of blocks at 100,000.
+constexpr std::int64_t kMostBruteForce = 500;
 constexpr double kMostRecords = 1e6;
 constexpr std::size_t kMostFrames = 10'000;
 constexpr double kMostCells = 1e7;
@@ -133,6 +135,13 @@ void check_grains(const BedSpec& bed, Problems& problems) {
                             text(box.width * box.height, "m2"),
                         "at most " + text(most) + " of these radii in this box", ""});
   }
+}
+
+void check_solver(const grains::ContactSpec& contact, std::int64_t count, const std::string& pointer,
+                  Problems& problems) {
+  if (contact.solver != grains::Solver::brute_force || count <= kMostBruteForce) return;
+  problems.push_back({pointer + "/solver", "compares all grains with all: " + text(static_cast<double>(count)) + " are too many",
+                      "brute_force for at most " + text(static_cast<double>(kMostBruteForce)) + " grains", ""});
 }
 
 void check_settling(const BedSpec& bed, Problems& problems) {
@@ -256,6 +265,8 @@ Problems validate(const SceneSpec& scene, std::optional<double> bed_height) {
   Problems problems;
   check_grains(scene.bed, problems);
   check_settling(scene.bed, problems);
+  check_solver(scene.bed.preparation.contact, scene.bed.grains.count, "/bed/preparation/contact", problems);
+  if (scene.pile) check_solver(scene.contact, scene.bed.grains.count, "/contact", problems);
   if (scene.pile) {
     if (!bed_height && !from_file(scene.bed)) bed_height = estimated_height(scene.bed);
     check_pile_shape(*scene.pile, scene.bed, problems);

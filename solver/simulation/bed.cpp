@@ -142,14 +142,11 @@ Bed prepare_bed(const scene::BedSpec& spec, const std::vector<Array>& given, con
 
   bed.grains = arrays_of(sim.grains);
   const double top = surface(sim);
-  double touching = 0;
+  double touching = 0;  // seen from the grains: a contact of two counts twice
   std::visit(
       [&](const auto& system) {
-        std::size_t wall_lanes = 0;
-        for (const auto slot : system.blocks.wall_slot)
-          wall_lanes += system.blocks.block[slot / grains::kLanes].pn[slot % grains::kLanes] > 0;
-        const double all = static_cast<double>(overlaps(system, sim.grains, nullptr).touching);
-        touching = 2 * all - static_cast<double>(wall_lanes);
+        const grains::OverlapStatistics contacts = overlaps(system, sim.grains, nullptr);
+        touching = static_cast<double>(contacts.touching + contacts.between_grains);
       },
       sim.contacts);
   const Record& last = bed.records.back();

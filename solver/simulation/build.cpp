@@ -34,6 +34,8 @@ grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& 
   law.substeps = static_cast<int>(contact.substeps);
   law.stiffness = contact.stiffness;
   law.damping = contact.damping;
+  if (const auto* method = std::get_if<grains::NonSmoothMethod>(&contact.method))
+    law.nonsmooth = {static_cast<int>(method->sweeps), method->tolerance};
   return law;
 }
 
@@ -44,7 +46,10 @@ Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contac
   sim.box = {-bed.domain.width / 2, bed.domain.width / 2, 0};
   sim.law = law_of(bed, contact);
   sim.grains = std::move(grains);
-  if (contact.precision == grains::Precision::double_) sim.contacts.emplace<grains::ContactSystem<double>>();
+  if (contact.solver == grains::Solver::brute_force)
+    sim.contacts.emplace<grains::AllPairs>();
+  else if (contact.precision == grains::Precision::double_)
+    sim.contacts.emplace<grains::ContactSystem<double>>();
   std::visit([&](auto& system) { enclose(system, sim.grains); }, sim.contacts);
   for (std::size_t i = 0; i < sim.grains.count(); ++i) sim.origin.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
   sim.surface = grains::bed_surface({sim.grains.disc.data(), sim.grains.count()}, sim.box.left, sim.box.right);

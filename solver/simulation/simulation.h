@@ -7,6 +7,7 @@
 
 #include "solver/base/profile.h"
 #include "solver/base/vec2.h"
+#include "solver/grains/brute_force.h"
 #include "solver/grains/contact_solver.h"
 #include "solver/grains/grains.h"
 #include "solver/grains/rigid_body.h"
@@ -46,7 +47,7 @@ struct Simulation {
   grains::Box box;
   grains::ContactLaw law;
   grains::Grains grains;
-  std::variant<grains::ContactSystem<float>, grains::ContactSystem<double>> contacts;
+  std::variant<grains::ContactSystem<float>, grains::ContactSystem<double>, grains::AllPairs> contacts;
   std::optional<Pile> pile;              ///< absent: a bed
   grains::ContactTotals totals;          ///< impulses since the last record; work since the start
   Gathering gathering;

@@ -72,6 +72,23 @@ void take_contacts(const ContactSystem<Real>& system, std::size_t count, Parts& 
             std::vector<std::int64_t>{blocks.bodies, system.rebuilds});
 }
 
+void take_contacts(const grains::AllPairs& system, std::size_t, Parts& parts) {
+  std::vector<double> velocity, spin, impulse;
+  for (const auto& m : system.body) {
+    velocity.insert(velocity.end(), {m.vx, m.vy});
+    spin.push_back(m.u);
+  }
+  std::vector<std::int32_t> bodies;
+  for (const grains::KeptContact& c : system.kept) {
+    bodies.insert(bodies.end(), {c.first, c.second});
+    impulse.insert(impulse.end(), {c.pn, c.pt});
+  }
+  parts.add("grains/velocity", "m/s", "velocity of the centre", 2, Entity::grain, std::move(velocity));
+  parts.add("grains/surface_speed", "m/s", "spin times radius, anticlockwise", 1, Entity::grain, std::move(spin));
+  parts.add("pairs/bodies", "-", "grain, and grain, wall or pile", 2, Entity::contact, std::move(bodies));
+  parts.add("pairs/impulse", "N s/m", "normal and tangential impulse of the last sub-step", 2, Entity::contact, std::move(impulse));
+}
+
 Parts take(const Simulation& sim) {
   Parts parts;
   const std::size_t count = sim.grains.count();
@@ -182,6 +199,21 @@ void put_contacts(ContactSystem<Real>& system, grains::Grains& grains, const Sou
   }
 }
 
+void put_contacts(grains::AllPairs& system, grains::Grains&, const Source& source) {
+  const auto& velocity = source.get<double>("grains/velocity");
+  const auto& spin = source.get<double>("grains/surface_speed");
+  for (std::size_t i = 0; i < system.body.size(); ++i) {
+    system.body[i].vx = velocity[2 * i];
+    system.body[i].vy = velocity[2 * i + 1];
+    system.body[i].u = spin[i];
+  }
+  const auto& bodies = source.get<std::int32_t>("pairs/bodies");
+  const auto& impulse = source.get<double>("pairs/impulse");
+  system.kept.clear();
+  for (std::size_t k = 0; k < bodies.size(); k += 2)
+    system.kept.push_back({bodies[k], bodies[k + 1], impulse[k], impulse[k + 1]});
+}
+
 std::size_t size(const ArrayValues& values) {
   return std::visit([](const auto& v) { return v.size(); }, values);
 }
@@ -234,10 +266,12 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
     for (const auto& [info, values] : mine.arrays)
       if (identity && info.name == array.info.name && values != array.values) refuse(info.name, "of other grains");
   }
-  if (std::holds_alternative<ContactSystem<float>>(sim.contacts))
-    check_lists<float>(Source(state), sim.grains.count());
-  else
-    check_lists<double>(Source(state), sim.grains.count());
+  const Source source(state);
+  if (std::holds_alternative<ContactSystem<float>>(sim.contacts)) check_lists<float>(source, sim.grains.count());
+  if (std::holds_alternative<ContactSystem<double>>(sim.contacts)) check_lists<double>(source, sim.grains.count());
+  if (std::holds_alternative<grains::AllPairs>(sim.contacts) &&
+      source.get<std::int32_t>("pairs/bodies").size() != source.get<double>("pairs/impulse").size())
+    refuse("pairs/impulse", "does not fit the pairs");
 }
 
 }  // namespace
