@@ -32,6 +32,9 @@ struct Box {
 struct NonSmooth {
   int sweeps = 100;      ///< at most, per step
   double tolerance = 0;  ///< rms velocity that a sweep changes [m/s] below which no further one is made
+  /// Largest speed at which an overlap is taken back [m/s]. It is a true velocity: in a bed that was settled by another
+  /// method the overlaps of all layers add up, and taken back within one step they would throw the bed up.
+  double correction = 1e-3;
 };
 
 /// What the contacts obey during a run.
@@ -50,8 +53,10 @@ struct ContactLaw {
 /// Sub-steps of a step, each with a velocity of its own: one for the non-smooth method.
 inline int substeps(const ContactLaw& law) { return law.nonsmooth ? 1 : law.substeps; }
 
-/// The largest speed at which an overlap is taken back: a tenth of the smallest radius per step [m/s].
-inline double push_speed(const ContactLaw& law, double smallest_radius) { return 0.1 * smallest_radius / law.step; }
+/// The largest speed at which an overlap is taken back: for soft impulses a tenth of the smallest radius per step [m/s].
+inline double push_speed(const ContactLaw& law, double smallest_radius) {
+  return law.nonsmooth ? law.nonsmooth->correction : 0.1 * smallest_radius / law.step;
+}
 
 /// Impulses on one obstacle since they were last cleared, as the grains press it [N s/m].
 struct Impulse {

@@ -70,12 +70,14 @@ struct NonSmoothMethod {
   static constexpr const char* kName = "nonsmooth";
   std::int64_t sweeps = 100;  ///< over all contacts, at most, per step
   double tolerance = 0;       ///< [m/s]: rms velocity changed by a sweep, below which no further one is made
+  double correction = 1e-3;   ///< [m/s]: largest speed at which an overlap is taken back
   friend bool operator==(const NonSmoothMethod&, const NonSmoothMethod&) = default;
 };
 void fields(auto& visit, SameAs<NonSmoothMethod> auto& method) {
   visit(Field{"sweeps", "-", between(1, 100'000), "sweeps over all contacts, at most, per step"}, method.sweeps);
   visit(Field{"tolerance", "m/s", between(0, 1), "rms velocity changed by a sweep, below which no further one is made"},
         method.tolerance);
+  visit(Field{"correction", "m/s", positive(100), "largest speed at which an overlap is taken back"}, method.correction);
 }
 
 using Method = std::variant<SoftMethod, NonSmoothMethod>;

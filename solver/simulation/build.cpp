@@ -35,7 +35,7 @@ grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& 
   law.stiffness = contact.stiffness;
   law.damping = contact.damping;
   if (const auto* method = std::get_if<grains::NonSmoothMethod>(&contact.method))
-    law.nonsmooth = {static_cast<int>(method->sweeps), method->tolerance};
+    law.nonsmooth = {static_cast<int>(method->sweeps), method->tolerance, method->correction};
   return law;
 }
 
