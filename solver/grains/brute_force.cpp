@@ -218,7 +218,8 @@ class Step {
       const base::Vec2 other = c.j >= 0 ? moved_[c.j] : c.j == kBody ? body_->moved : base::Vec2{};
       const double gap = c.gap + c.nx * (other.x - moved_[c.i].x) + c.ny * (other.y - moved_[c.i].y);
       const bool impact = c.approach < -2 * law_.gravity * law_.step;
-      if (!impact || v.normal <= 0.5 * c.approach || gap >= -c.approach * h_) continue;
+      const bool stopped = c.pn > 0 || v.normal > 0.5 * c.approach;
+      if (!impact || !stopped || gap >= -c.approach * h_) continue;
       const double pn = std::max(0.0, -(v.normal + law_.restitution * c.approach) / c.inverse_mass);
       const double pt = std::clamp(-v.tangential / c.tangential_inverse_mass, -c.friction * pn, c.friction * pn);
       apply(c, pn, pt);

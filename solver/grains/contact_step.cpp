@@ -42,17 +42,23 @@ Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains
   closing.margin =
       closing.body_speed * law.step + 4 * law.gravity * law.step * law.step + 0.01 * system.smallest_radius;
   closing.reach = 6 * law.step * std::max(std::sqrt(fastest), closing.body_speed) + closing.margin;
+  closing.likely = 2 * law.step * std::sqrt(fastest) + closing.margin;
   return closing;
 }
 
 template <class Real>
 bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
                 double step) {
-  // The lists of the body wear by its own path too.
-  const bool worn = list_is_worn(system, grains, std::min(closing.reach, 0.5 * system.skin));
+  // Two grains that may cross the whole skin within this step are looked for farther out; as the skin says less than such
+  // a list holds, it wears early. The lists of the body wear by its own path too.
+  const double skin = system.skin;
+  const bool leaps = closing.likely > skin;
+  const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin));
+  if (leaps) system.skin = closing.reach;
   if (worn) list_contacts(system, grains, box);
-  if (body && (worn || body->listed_travel + closing.body_speed * step > system.skin))
+  if (body && (worn || body->listed_travel + closing.body_speed * step > skin))
     list_body_contacts(*body, grains, 3 * system.skin);
+  system.skin = skin;
   place_wall_points(system, grains, box);
   return worn;
 }

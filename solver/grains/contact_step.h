@@ -21,6 +21,7 @@ struct Closing {
   double body_speed = 0;  ///< of the rigid body [m/s]
   double margin = 0;      ///< what does not come from the bodies' own velocities [m]
   double reach = 0;       ///< any gap, at three times the largest speed of both bodies, along both axes [m]
+  double likely = 0;      ///< any gap, at the largest speed of both bodies [m]
 };
 template <class Real>
 Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law,
