@@ -40,18 +40,22 @@ std::string double_text(double number) {
   return std::string(buffer.data(), end);
 }
 
-template <class Spec>
+/// What a text is for: identity leaves out what a case does not use and what was added later and holds its default; a
+/// worker is handed everything.
+enum class Purpose { identity, handover };
+
+template <Purpose kPurpose, class Spec>
 Members members_of(const Spec& spec);
 
-template <class T>
+template <Purpose kPurpose, class T>
 std::string member_text(const T& member) {
   if constexpr (kIsOptional<T>) {
-    return member ? member_text(*member) : "null";
+    return member ? member_text<kPurpose>(*member) : "null";
   } else if constexpr (kIsVariant<T>) {
     return std::visit(
         [](const auto& alternative) {
           return object_text(
-              {{std::remove_cvref_t<decltype(alternative)>::kName, object_text(members_of(alternative))}});
+              {{std::remove_cvref_t<decltype(alternative)>::kName, object_text(members_of<kPurpose>(alternative))}});
         },
         member);
   } else if constexpr (std::is_same_v<T, double>) {
@@ -71,29 +75,27 @@ std::string member_text(const T& member) {
   } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
     return "null";
   } else {
-    return object_text(members_of(member));
+    return object_text(members_of<kPurpose>(member));
   }
 }
 
-template <class Spec>
+template <Purpose kPurpose, class Spec>
 Members members_of(const Spec& spec) {
-  Members defaults;  // of the fields that were added later
-  const Spec untouched;
-  const auto keep_default = [&](const base::Field& field, const auto& member) {
-    if (field.later) defaults[std::string(field.key)] = member_text(member);
-  };
-  fields(keep_default, untouched);
   Members members;
   const auto visit = [&](const base::Field& field, const auto& member) {
-    std::string text = member_text(member);
-    const std::string key(field.key);
-    if (const auto neutral = defaults.find(key); neutral != defaults.end() && neutral->second == text) return;
-    if constexpr (std::is_same_v<Spec, grains::ContactSpec>) {
-      if (!uses(spec, key)) return;
-    }
-    members[key] = std::move(text);
+    members[std::string(field.key)] = member_text<kPurpose>(member);
   };
   fields(visit, spec);
+  if constexpr (kPurpose == Purpose::handover) return members;
+
+  const Spec untouched;
+  const auto leave_out_default = [&](const base::Field& field, const auto& member) {
+    const std::string key(field.key);
+    if (field.later && members[key] == member_text<kPurpose>(member)) members.erase(key);
+  };
+  fields(leave_out_default, untouched);
+  if constexpr (std::is_same_v<Spec, grains::ContactSpec>)
+    std::erase_if(members, [&](const auto& entry) { return !uses(spec, entry.first); });
   return members;
 }
 
@@ -135,7 +137,7 @@ std::string case_id(const std::string& canonical) { return sha256(canonical); }
 
 std::string canonical_text(const scene::BedSpec& bed) {
   // Grains from a file are known by what they are, wherever the file lies.
-  Members members = members_of(bed);
+  Members members = members_of<Purpose::identity>(bed);
   members.erase("file");
   members["file_content"] = string_text(bed.file_content);
   return object_text(members);
@@ -144,17 +146,17 @@ std::string canonical_text(const scene::BedSpec& bed) {
 std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed_id) {
   // Without a pile nothing is done to the bed, and the case is the bed.
   if (!scene.pile) return canonical_text(scene.bed);
-  Members members = members_of(scene);
+  Members members = members_of<Purpose::identity>(scene);
   members["bed"] = string_text(bed_id);
   return object_text(members);
 }
 
-std::string canonical_text(const scene::RecordSpec& record) { return object_text(members_of(record)); }
+std::string canonical_text(const scene::RecordSpec& record) { return object_text(members_of<Purpose::identity>(record)); }
 
 std::string to_json(const scene::SceneSpec& scene) {
-  Members bed = members_of(scene.bed);
+  Members bed = members_of<Purpose::handover>(scene.bed);
   if (!scene.bed.file_content.empty()) bed["file_content"] = string_text(scene.bed.file_content);
-  Members members = members_of(scene);
+  Members members = members_of<Purpose::handover>(scene);
   members["bed"] = object_text(bed);
   return object_text(members);
 }
@@ -171,7 +173,7 @@ scene::SceneSpec scene_from_json(const std::string& text) {
   return scene;
 }
 
-std::string to_json(const scene::RecordSpec& record) { return canonical_text(record); }
+std::string to_json(const scene::RecordSpec& record) { return object_text(members_of<Purpose::handover>(record)); }
 
 scene::RecordSpec record_from_json(const std::string& text) {
   const Value value = read_own(text, "record");

@@ -8,6 +8,7 @@
 
 #include "solver/base/random.h"
 #include "solver/grains/contact_lists.h"
+#include "solver/grains/brute_force.h"
 #include "solver/grains/contact_solver.h"
 
 namespace seapile::support {
@@ -15,14 +16,15 @@ namespace seapile::support {
 inline constexpr double kDensity = 1500;  // [kg/m3], of every grain here
 inline constexpr double kFar = 1e3;       // [m], where a wall is out of the way
 
-/// Discs, not yet enclosed.
-inline grains::Grains grains_from(const std::vector<grains::Disc>& discs) {
+/// Discs, not yet enclosed. `masses`: [kg/m], (discs); empty: those of kDensity.
+inline grains::Grains grains_from(const std::vector<grains::Disc>& discs, const std::vector<double>& masses = {}) {
   grains::Grains grains;
   for (const grains::Disc& d : discs) {
     grains.id.push_back(static_cast<std::int64_t>(grains.id.size()));
     grains.disc.push_back(d);
     grains.mass.push_back(kDensity * std::numbers::pi * d.radius * d.radius);
   }
+  if (!masses.empty()) grains.mass = masses;
   return grains;
 }
 
@@ -41,10 +43,24 @@ inline std::vector<grains::Disc> jittered_lattice(int count, int columns, double
   return discs;
 }
 
-/// The contact solver with everything it works on.
-template <class Real>
+/// The system of a solver: blocks in one of two number formats, or all pairs.
+template <class Solver>
+struct SystemOf {
+  using Type = grains::ContactSystem<Solver>;
+};
+template <>
+struct SystemOf<grains::AllPairs> {
+  using Type = grains::AllPairs;
+};
+
+/// A contact solver with everything it works on. `Solver`: float or double for blocks, or AllPairs.
+template <class Solver>
 struct ContactScene {
-  explicit ContactScene(const std::vector<grains::Disc>& discs) : grains(grains_from(discs)) {
+  using System = typename SystemOf<Solver>::Type;
+  using Real = decltype(grains::Motion(std::declval<System&>().motion(0)).vx);
+
+  explicit ContactScene(const std::vector<grains::Disc>& discs, const std::vector<double>& masses = {})
+      : grains(grains_from(discs, masses)) {
     enclose(system, grains);
     totals.feature.resize(2);
   }
@@ -52,7 +68,7 @@ struct ContactScene {
   grains::Box box{-kFar, kFar, 0};
   grains::ContactLaw law;
   grains::Grains grains;
-  grains::ContactSystem<Real> system;
+  System system;
   std::optional<grains::RigidBody> body;  ///< prescribed where its inverse mass is 0
   double body_speed = 0;                  ///< downwards, of a prescribed body [m/s]
   grains::ContactTotals totals;
@@ -74,7 +90,7 @@ struct ContactScene {
 
   const grains::Disc& disc(int i) const { return grains.disc[i]; }
   base::Vec2 velocity(int i) const {
-    const grains::Motion<Real>& m = system.motion(i);
+    const auto& m = system.motion(i);
     return {static_cast<double>(m.vx), static_cast<double>(m.vy)};
   }
   /// Angular velocity, anticlockwise [rad/s].
@@ -114,9 +130,9 @@ struct ContactScene {
 };
 
 /// Between two frictionless walls, as wide as the lattice of jittered_lattice().
-template <class Real>
-ContactScene<Real> heap(int count, int columns, double r_min, double r_max, std::uint64_t seed) {
-  ContactScene<Real> scene(jittered_lattice(count, columns, r_min, r_max, seed));
+template <class Solver>
+ContactScene<Solver> heap(int count, int columns, double r_min, double r_max, std::uint64_t seed) {
+  ContactScene<Solver> scene(jittered_lattice(count, columns, r_min, r_max, seed));
   scene.box = {0, columns * 2.04 * r_max, 0};
   return scene;
 }

@@ -95,7 +95,7 @@ TEST_F(BadStudyFile, TellsAllItsProblemsAtOnce) {
     "base": {"pile": {"raduis": 0.1, "friction": 11, "radius": 3}, "bed": {"grains": {"count": 3.7}}},
     "axes": {"pile.tip": ["flatt", "conical"], "pile.depth": []},
     "record": {"travel": "1 s"},
-    "fidelity": "thesis"
+    "fidelity": "theses"
   })");
   std::vector<std::string> pointers;
   for (const auto& problem : found) pointers.push_back(problem.pointer);

@@ -159,6 +159,10 @@ TEST_F(Expand, FidelityFillsTheContactSolverOfTheDrive) {
   EXPECT_EQ(reference.step, 5e-4);
   EXPECT_EQ(reference.substeps, 20);
   EXPECT_EQ(reference.precision, grains::Precision::double_);
+  const grains::ContactSpec thesis = contact(R"("fidelity": "thesis")");
+  EXPECT_EQ(thesis.step, 1e-4);
+  EXPECT_EQ(thesis.method, grains::Method{grains::NonSmoothMethod{}});
+  EXPECT_EQ(thesis.precision, grains::Precision::double_);
   EXPECT_EQ(study(R"("base": {"pile": {}}, "fidelity": "reference")").cases[0].bed_id,
             study(R"("base": {"pile": {}})").cases[0].bed_id);
 }

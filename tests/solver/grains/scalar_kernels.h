@@ -105,6 +105,93 @@ void sweep(ContactBlock<Real>* blocks, const std::uint8_t* active, std::int32_t 
   chunk->residual += sum_residual;
 }
 
+/// What solving one contact by itself gives at the present velocities, from the impulses pn and pt.
+template <class Real>
+struct Solved {
+  Real pn, pt, vn, vt;  ///< new impulses; velocities across the contact
+};
+template <class Real>
+Solved<Real> solved(const ContactBlock<Real>& block, Real bias, int lane, const Motion<Real>& a, const Motion<Real>& c,
+                    Real pn, Real pt, Real friction) {
+  const Real nx = block.nx[lane], ny = block.ny[lane], mass = block.mass[lane];
+  const Real wx = c.vx - a.vx, wy = c.vy - a.vy;
+  const Real vn = nx * wx + ny * wy, vt = (nx * wy - ny * wx) - (a.u + c.u);
+  const Real new_pn = larger(pn - mass * (vn + bias), Real(0)), cone = friction * new_pn;
+  const Real held = larger(pt - mass * (Real(1) / Real(3)) * vt, Real(0) - cone);
+  return {new_pn, held < cone ? held : cone, vn, vt};
+}
+
+template <class Real>
+void add_sum(const Real (&lane)[kLanes], double& sum) {
+  double own = 0;
+  for (int k = 0; k < kLanes; ++k) own += static_cast<double>(lane[k]);
+  sum += own;
+}
+
+template <class Real>
+void solve(ContactBlock<Real>* blocks, Iterate<Real>* iterates, const std::uint8_t* active, std::int32_t first,
+           std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real momentum, SolveSums* sums) {
+  Real residual[kLanes] = {}, touching[kLanes] = {};
+  for (std::int32_t b = first; b < last; ++b)
+    for (int lane = 0; lane < kLanes && active[b]; ++lane) {
+      ContactBlock<Real>& block = blocks[b];
+      Iterate<Real>& iterate = iterates[b];
+      Motion<Real>&a = motion(bodies, block.i[lane]), &c = motion(bodies, block.j[lane]);
+      const Real pn = block.pn[lane] + momentum * (block.pn[lane] - iterate.old_pn[lane]);
+      const Real pt = block.pt[lane] + momentum * (block.pt[lane] - iterate.old_pt[lane]);
+      const Solved<Real> p = solved(block, iterate.bias[lane], lane, a, c, pn, pt, friction);
+      iterate.old_pn[lane] = block.pn[lane], iterate.old_pt[lane] = block.pt[lane];
+      block.pn[lane] = p.pn, block.pt[lane] = p.pt;
+
+      const Real nx = block.nx[lane], ny = block.ny[lane], dpn = p.pn - pn, dpt = p.pt - pt;
+      const Real px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, sum = a.inverse_mass + c.inverse_mass;
+      a = {a.vx - a.inverse_mass * px, a.vy - a.inverse_mass * py, a.u - a.inverse_mass * (dpt + dpt), a.inverse_mass};
+      c = {c.vx + c.inverse_mass * px, c.vy + c.inverse_mass * py, c.u - c.inverse_mass * (dpt + dpt), c.inverse_mass};
+      const Real dvn = sum * dpn, dvt = (sum + sum + sum) * dpt;
+      residual[lane] = residual[lane] + (dvn * dvn + dvt * dvt);
+      touching[lane] = touching[lane] + (p.pn > 0 ? Real(1) : Real(0));
+    }
+  add_sum(residual, sums->residual);
+  add_sum(touching, sums->touching);
+}
+
+template <class Real>
+void assess(const ContactBlock<Real>* blocks, const Iterate<Real>* iterates, const std::uint8_t* active,
+            std::int32_t first, std::int32_t last, BodyGroup<Real>* bodies, const Before<Real>* before, Real friction,
+            SolveSums* sums) {
+  Real residual[kLanes] = {}, touching[kLanes] = {}, work[kLanes] = {};
+  for (std::int32_t b = first; b < last; ++b)
+    for (int lane = 0; lane < kLanes && active[b]; ++lane) {
+      const ContactBlock<Real>& block = blocks[b];
+      const Motion<Real>&a = motion(bodies, block.i[lane]), &c = motion(bodies, block.j[lane]);
+      const Real pn = block.pn[lane], pt = block.pt[lane];
+      const Solved<Real> p = solved(block, iterates[b].bias[lane], lane, a, c, pn, pt, friction);
+      const Real sum = a.inverse_mass + c.inverse_mass, dvn = sum * (p.pn - pn), dvt = (sum + sum + sum) * (p.pt - pt);
+      residual[lane] = residual[lane] + (dvn * dvn + dvt * dvt);
+      touching[lane] = touching[lane] + (pn > 0 ? Real(1) : Real(0));
+      const Before<Real>&oa = before[body_at(block.i[lane])], &oc = before[body_at(block.j[lane])];
+      const Real nx = block.nx[lane], ny = block.ny[lane], ox = oc.vx - oa.vx, oy = oc.vy - oa.vy;
+      const Real on = nx * ox + ny * oy, ot = (nx * oy - ny * ox) - (oa.u + oc.u);
+      work[lane] = work[lane] + Real(0.5) * (pn * (p.vn + on) + pt * (p.vt + ot));
+    }
+  add_sum(residual, sums->residual);
+  add_sum(touching, sums->touching);
+  add_sum(work, sums->work);
+}
+
+template <class Real>
+void extrapolate(BodyGroup<Real>* bodies, std::int32_t first, std::int32_t last, Real momentum) {
+  for (std::int32_t group = first; group < last; ++group)
+    for (int body = 0; body < 4; ++body) {
+      Motion<Real>& m = bodies[group].motion[body];
+      Drift<Real>& old = bodies[group].drift[body];
+      const Motion<Real> now = m;
+      m = {now.vx + momentum * (now.vx - old.dx), now.vy + momentum * (now.vy - old.dy),
+           now.u + momentum * (now.u - old.du), now.inverse_mass};
+      old = {now.vx, now.vy, now.u, now.inverse_mass};
+    }
+}
+
 /// Both starts of a sub-step. Four bodies of a group have sums of their own, as have vx, vy and u.
 template <class Real>
 void start(bool first_substep, BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last,

@@ -108,6 +108,23 @@ TEST(Reproducibility, DoublePrecisionHasTheSameBitsToo) {
   expect_same_run(drive(scene, record, settled(scene.bed), {3, Simd::best}), expected, "3 threads, best");
 }
 
+TEST(Reproducibility, TheNonSmoothMethodHasTheSameBitsToo) {
+  scene::SceneSpec scene = scene_of_2000(pile::ConicalTip{});
+  scene.contact.step = 1e-4;
+  scene.contact.method = grains::NonSmoothMethod{12, 0, 1e-3};
+  scene.pile->depth = 0.02;
+  scene::RecordSpec record;
+  record.frames = {0.02};
+  for (const auto precision : {grains::Precision::single_, grains::Precision::double_}) {
+    scene.contact.precision = precision;
+    const Drive expected = drive(scene, record, settled(scene.bed), {1, Simd::generic});
+    for (const int threads : {1, 2, 5})
+      expect_same_run(drive(scene, record, settled(scene.bed), {threads, Simd::best}), expected,
+                      std::to_string(threads) + " threads, best");
+    EXPECT_GT(expected.records.back().residual, 0);
+  }
+}
+
 TEST(Reproducibility, TheCadenceOfRecordsAndFramesChangesNoBit) {
   const scene::SceneSpec scene = scene_of_2000(pile::FlatTip{});
   scene::RecordSpec record;
@@ -145,6 +162,29 @@ TEST(Reproducibility, StopAndRestoreAtTenPlacesHasTheSameBits) {
     for (std::size_t k = 0; k < found.result.metrics.size(); ++k)
       EXPECT_EQ(found.result.metrics[k].value, expected.result.metrics[k].value) << found.result.metrics[k].name;
   }
+}
+
+TEST(Reproducibility, EveryMethodIsStoppedAndRestoredWithTheSameBits) {
+  scene::SceneSpec scene = small_drive(150, 0.6, pile::FlatTip{});
+  scene.pile->depth = 0.05;
+  for (const bool rigid : {false, true})
+    for (const auto solver : {grains::Solver::blocks, grains::Solver::brute_force}) {
+      scene.contact.step = rigid ? 2e-4 : 5e-4;
+      if (rigid) scene.contact.method = grains::NonSmoothMethod{10, 1e-6, 1e-3};
+      scene.contact.solver = solver;
+      const scene::RecordSpec record{5e-4, {}, 0.01, 0.05};
+      const Drive expected = drive(scene, record, settled(scene.bed));
+      Drive found;
+      std::vector<Array> state;
+      RunHooks hooks = keeping(found);
+      hooks.stop = [&] { return found.records.size() >= 40; };
+      hooks.checkpoint = [&](const std::vector<Array>& s) { state = s; };
+      run(scene, record, settled(scene.bed), {}, {}, {}, hooks);
+      ASSERT_FALSE(state.empty());
+      found.result = run(scene, record, settled(scene.bed), {2, Simd::best}, state, found.records, keeping(found));
+      expect_same_run(found, expected, rigid ? "non-smooth" : "soft");
+      EXPECT_GT(expected.result.metrics.size(), 5u);
+    }
 }
 
 TEST(Reproducibility, CheckpointsOnTheWayChangeNoBit) {
