@@ -5,48 +5,33 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
-#include <string>
 
 namespace seapile::grains {
 namespace {
 
 constexpr double kSkin = 0.5;  // gap below which pairs are listed, in largest radii: larger ones rarely help
+constexpr double kDistance[] = {0.02, 0.06, 0.2};  // gaps below which contacts are near, in skins
+constexpr int kDistances = 4;
 
 /// A contact that waits for its lane.
 template <class Real>
 struct Candidate {
-  std::int32_t i, j;
-  std::int32_t pair;  ///< index of the pair, or -1 - index of the wall contact
+  std::int32_t i, j;      ///< j of a wall contact: unused
+  std::int32_t index;     ///< of the pair, or of the wall contact
+  std::int32_t distance;  ///< class: near ones are put first
+  bool wall;
   Real pn, pt;
 };
 
-/// Greedy colouring in the order given: each contact takes the lowest colour that neither of its grains has. Walls do
-/// not constrain: their points belong to one contact each. Throws when a grain would need more than 64 * Words colours.
-template <int Words>
-class Colouring {
- public:
-  explicit Colouring(std::size_t grain_count) : used_(grain_count) {}
-
-  template <class Real>
-  std::int32_t next(const Candidate<Real>& contact) {
-    static const std::array<std::uint64_t, Words> kFree{};
-    auto& a = used_[contact.i];
-    auto* b = contact.pair >= 0 ? &used_[contact.j] : nullptr;
-    for (int word = 0; word < Words; ++word) {
-      const std::uint64_t taken = a[word] | (b ? (*b)[word] : kFree[word]);
-      if (~taken == 0) continue;
-      const std::uint64_t bit = ~taken & (taken + 1);
-      a[word] |= bit;
-      if (b) (*b)[word] |= bit;
-      return word * 64 + std::countr_zero(bit);
-    }
-    throw std::runtime_error("a grain has more than " + std::to_string(64 * Words) + " neighbours");
-  }
-
- private:
-  std::vector<std::array<std::uint64_t, Words>> used_;
+struct WallContact {
+  Wall wall;
+  std::int32_t grain;
+  friend auto operator<=>(const WallContact&, const WallContact&) = default;
 };
+
+constexpr Wall kWalls[] = {Wall::left, Wall::right, Wall::base};
 
 /// Gap of a grain to a wall.
 double gap(const Disc& d, Wall wall, const Box& box) {
@@ -58,148 +43,259 @@ double gap(const Disc& d, Wall wall, const Box& box) {
   throw std::logic_error("unknown wall");
 }
 
-/// True when some grain has so many candidates that 64 colours might not do: two grains of 32 can block 62 colours.
-template <class Real>
-bool has_crowded_grain(const std::vector<Candidate<Real>>& contacts, std::size_t grain_count) {
-  std::vector<std::int32_t> degree(grain_count);
-  for (const Candidate<Real>& c : contacts) {
-    ++degree[c.i];
-    if (c.pair >= 0) ++degree[c.j];
+/// Greedy colouring in the order given: each contact takes the lowest colour that neither of its grains has. Walls do not
+/// constrain: their points belong to one contact each. Grains are those of [first, first + count).
+class Colouring {
+ public:
+  Colouring(std::int32_t first, std::int32_t count) : first_(first), used_(count) {}
+
+  template <class Real>
+  std::int32_t next(const Candidate<Real>& contact) {
+    Used& a = used_[contact.i - first_];
+    Used* b = contact.wall ? nullptr : &used_[contact.j - first_];
+    const std::uint64_t taken = a.low | (b ? b->low : 0);
+    if (~taken != 0) {
+      const std::uint64_t bit = ~taken & (taken + 1);
+      a.low |= bit;
+      if (b) b->low |= bit;
+      return std::countr_zero(bit);
+    }
+    // A crowd: grains of very different sizes.
+    for (std::int32_t colour = 64;; ++colour) {
+      if (a.high.contains(colour) || (b && b->high.contains(colour))) continue;
+      a.high.insert(colour);
+      if (b) b->high.insert(colour);
+      return colour;
+    }
   }
-  return std::any_of(degree.begin(), degree.end(), [](std::int32_t d) { return d > 32; });
+
+ private:
+  struct Used {
+    std::uint64_t low = 0;        ///< colours below 64
+    std::set<std::int32_t> high;  ///< the others
+  };
+  std::int32_t first_;
+  std::vector<Used> used_;
+};
+
+/// Near contacts first: they fill the first blocks of few colours, and blocks of far ones rest until they are needed.
+template <class Real>
+void sort_by_distance(std::vector<Candidate<Real>>& contacts, std::vector<Candidate<Real>>& scratch) {
+  std::array<std::size_t, kDistances + 1> start{};
+  for (const Candidate<Real>& c : contacts) ++start[c.distance + 1];
+  for (int k = 0; k < kDistances; ++k) start[k + 1] += start[k];
+  scratch.resize(contacts.size());
+  for (const Candidate<Real>& c : contacts) scratch[start[c.distance]++] = c;
+  contacts.swap(scratch);
 }
 
-struct WallContact {
-  Wall wall;
-  std::int32_t grain;
-  friend auto operator<=>(const WallContact&, const WallContact&) = default;
+/// The contacts of a tile, or those between tiles, while they are found and put into blocks.
+template <class Real>
+struct Group {
+  std::vector<Pair> pairs;                          ///< whose first grain is in the tile, ascending
+  std::array<std::vector<std::int32_t>, 3> walls;   ///< grains of the tile at each wall, ascending
+  std::vector<Candidate<Real>> contacts, crossing;  ///< own, and with other tiles
+  std::vector<std::int32_t> colour;                 ///< (contacts)
+  std::vector<std::array<std::int32_t, 2>> members; ///< per colour: contacts of grains, with walls
+  std::int32_t first_pair = 0;
+  std::array<std::int32_t, 3> first_wall{};
+  std::int32_t blocks = 0, empty_lanes = 0, first_block = 0, first_colour = 0, first_filler = 0;
+
+  void give_colours(std::int32_t first_grain, std::int32_t grain_count) {
+    Colouring colouring(first_grain, grain_count);
+    colour.clear();
+    members.clear();
+    blocks = empty_lanes = 0;
+    for (const Candidate<Real>& c : contacts) {
+      const std::int32_t k = colouring.next(c);
+      if (static_cast<std::size_t>(k) >= members.size()) members.resize(k + 1);
+      ++members[k][c.wall];
+      colour.push_back(k);
+    }
+    for (const auto& kinds : members)
+      for (const std::int32_t count : kinds) {
+        blocks += (count + kLanes - 1) / kLanes;
+        empty_lanes += (kLanes - count % kLanes) % kLanes;
+      }
+  }
 };
+
+/// The list that is being replaced, and what is needed to find contacts for a new one.
+template <class Real>
+class Lister {
+ public:
+  Lister(const ContactSystem<Real>& system, const Grains& grains, const Box& box)
+      : old_(system), grains_(grains), box_(box), count_(static_cast<std::int32_t>(grains.count())),
+        grid_({grains.disc.data(), grains.count()}, system.skin) {}
+
+  /// Pairs and wall contacts of a tile.
+  void find(std::int32_t tile, Group<Real>& group) const {
+    const std::int32_t first = tile * kTileGrains, last = std::min(first + kTileGrains, count_);
+    grid_.find_pairs(first, last, group.pairs);
+    for (int wall = 0; wall < 3; ++wall)
+      for (std::int32_t i = first; i < last; ++i)
+        if (gap(grains_.disc[i], kWalls[wall], box_) < old_.skin) group.walls[wall].push_back(i);
+  }
+
+  /// Contacts of a tile from its pairs and walls, with the impulses of those that stay.
+  void collect(std::int32_t tile, Group<Real>& group) const {
+    // Old and new lists are both ascending.
+    auto old = std::lower_bound(old_.pair.begin(), old_.pair.end(), Pair{tile * kTileGrains, -1});
+    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
+      const Pair pair = group.pairs[p];
+      while (old != old_.pair.end() && *old < pair) ++old;
+      Candidate<Real> c{pair.i, pair.j, group.first_pair + static_cast<std::int32_t>(p), 0, false, 0, 0};
+      if (old != old_.pair.end() && *old == pair) keep_impulse(old_.pair_slot[old - old_.pair.begin()], c);
+      c.distance = c.pn > 0 ? 0 : distance_of(pair);
+      (pair.j / kTileGrains == tile ? group.contacts : group.crossing).push_back(c);
+    }
+    for (int wall = 0; wall < 3; ++wall) {
+      std::size_t old_wall = 0;
+      const auto before = [&](std::size_t k) { return WallContact{old_.blocks.wall[k], old_.blocks.wall_grain[k]}; };
+      for (std::size_t w = 0; w < group.walls[wall].size(); ++w) {
+        const WallContact contact{kWalls[wall], group.walls[wall][w]};
+        while (old_wall < old_.blocks.wall.size() && before(old_wall) < contact) ++old_wall;
+        Candidate<Real> c{contact.grain, 0, group.first_wall[wall] + static_cast<std::int32_t>(w), 0, true, 0, 0};
+        if (old_wall < old_.blocks.wall.size() && before(old_wall) == contact)
+          keep_impulse(old_.blocks.wall_slot[old_wall], c);
+        const double g = gap(grains_.disc[contact.grain], contact.wall, box_);
+        while (c.pn == 0 && c.distance < kDistances - 1 && g >= kDistance[c.distance] * old_.skin) ++c.distance;
+        group.contacts.push_back(c);
+      }
+    }
+  }
+
+ private:
+  void keep_impulse(std::int32_t slot, Candidate<Real>& c) const {
+    c.pn = old_.blocks.block[slot / kLanes].pn[slot % kLanes];
+    c.pt = old_.blocks.block[slot / kLanes].pt[slot % kLanes];
+  }
+  int distance_of(Pair pair) const {
+    const Disc &a = grains_.disc[pair.i], &b = grains_.disc[pair.j];
+    const double square = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y), sum = a.radius + b.radius;
+    int k = 0;
+    while (k < kDistances - 1 && square >= (sum + kDistance[k] * old_.skin) * (sum + kDistance[k] * old_.skin)) ++k;
+    return k;
+  }
+
+  const ContactSystem<Real>& old_;
+  const Grains& grains_;
+  const Box& box_;
+  std::int32_t count_;
+  CellGrid grid_;
+};
+
+/// Puts a group's contacts into its blocks: per colour those of grains, near to far, then those with walls, each filled up
+/// to whole blocks.
+template <class Real>
+void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& system) {
+  ContactBlocks<Real>& blocks = system.blocks;
+  std::vector<std::array<std::int32_t, 2>> next(group.members.size());  // lane at which the next contact goes
+  std::int32_t block = group.first_block, filler = group.first_filler;
+  for (std::size_t k = 0; k < group.members.size(); ++k) {
+    Colour& colour = blocks.colour[group.first_colour + k];
+    for (const int wall : {0, 1}) {
+      (wall ? colour.first_wall : colour.first) = block;
+      next[k][wall] = block * kLanes;
+      const std::int32_t count = group.members[k][wall], last = block + (count + kLanes - 1) / kLanes;
+      for (std::int32_t slot = block * kLanes + count; slot < last * kLanes; ++slot) {
+        blocks.block[slot / kLanes].i[slot % kLanes] = place_of(filler++);
+        blocks.block[slot / kLanes].j[slot % kLanes] = place_of(filler++);
+      }
+      block = last;
+    }
+    colour.last = block;
+  }
+  for (std::size_t n = 0; n < group.contacts.size(); ++n) {
+    const Candidate<Real>& c = group.contacts[n];
+    const std::int32_t slot = next[group.colour[n]][c.wall]++;
+    (c.wall ? blocks.wall_slot : system.pair_slot)[c.index] = slot;
+    ContactBlock<Real>& b = blocks.block[slot / kLanes];
+    const int lane = slot % kLanes;
+    b.i[lane] = place_of(c.i);
+    b.j[lane] = place_of(c.wall ? first_point(grains.count()) + c.index : c.j);
+    b.pn[lane] = c.pn;
+    b.pt[lane] = c.pt;
+    b.mass[lane] = static_cast<Real>(1 / (1 / grains.mass[c.i] + (c.wall ? 0 : 1 / grains.mass[c.j])));
+  }
+}
 
 }  // namespace
 
 template <class Real>
-void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box) {
-  const std::size_t count = grains.count();
-  const std::span<const Disc> discs(grains.disc.data(), count);
+void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, int threads) {
+  const std::int32_t tiles = tile_count(grains.count());
+  const auto in_parallel = [&](auto&& work) {
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (std::int32_t tile = 0; tile < tiles; ++tile) work(tile);
+  };
+  const Lister<Real> lister(system, grains, box);
+  std::vector<Group<Real>> groups(tiles + 1);  // the last one: between tiles
+  in_parallel([&](std::int32_t tile) { lister.find(tile, groups[tile]); });
+
+  // Numbers of pairs and wall contacts: pairs by tile, walls by wall and then by tile, so that both lists ascend.
+  std::int32_t pairs = 0, walls = 0;
+  for (std::int32_t tile = 0; tile < tiles; ++tile) {
+    groups[tile].first_pair = pairs;
+    pairs += static_cast<std::int32_t>(groups[tile].pairs.size());
+  }
+  for (int wall = 0; wall < 3; ++wall)
+    for (std::int32_t tile = 0; tile < tiles; ++tile) {
+      groups[tile].first_wall[wall] = walls;
+      walls += static_cast<std::int32_t>(groups[tile].walls[wall].size());
+    }
+
+  in_parallel([&](std::int32_t tile) {
+    Group<Real>& group = groups[tile];
+    lister.collect(tile, group);
+    std::vector<Candidate<Real>> scratch;
+    sort_by_distance(group.contacts, scratch);
+    group.give_colours(tile * kTileGrains, kTileGrains);
+  });
+  Group<Real>& between = groups[tiles];
+  for (std::int32_t tile = 0; tile < tiles; ++tile)
+    between.contacts.insert(between.contacts.end(), groups[tile].crossing.begin(), groups[tile].crossing.end());
+  std::vector<Candidate<Real>> scratch;
+  sort_by_distance(between.contacts, scratch);
+  between.give_colours(0, static_cast<std::int32_t>(grains.count()));
+
+  // Places of the groups' blocks, colours and fillers.
   ContactBlocks<Real>& blocks = system.blocks;
-
-  std::vector<Pair> pairs = neighbour_pairs(discs, system.skin);
-  std::vector<WallContact> walls;
-  for (const Wall wall : {Wall::left, Wall::right, Wall::base})
-    for (std::size_t i = 0; i < count; ++i)
-      if (gap(discs[i], wall, box) < system.skin) walls.push_back({wall, static_cast<std::int32_t>(i)});
-
-  // Impulses of the contacts that stay: old and new lists are both ascending.
-  std::vector<Candidate<Real>> contacts;
-  contacts.reserve(pairs.size() + walls.size());
-  std::size_t old = 0;
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    while (old < system.pair.size() && system.pair[old] < pairs[p]) ++old;
-    Candidate<Real> c{pairs[p].i, pairs[p].j, static_cast<std::int32_t>(p), 0, 0};
-    if (old < system.pair.size() && system.pair[old] == pairs[p]) {
-      const std::int32_t slot = system.pair_slot[old];
-      c.pn = blocks.block[slot / kLanes].pn[slot % kLanes];
-      c.pt = blocks.block[slot / kLanes].pt[slot % kLanes];
-    }
-    contacts.push_back(c);
+  blocks.tile_colour.clear();
+  std::int32_t block = 0, colour = 0, filler = first_point(grains.count()) + walls;
+  for (Group<Real>& group : groups) {
+    blocks.tile_colour.push_back(colour);
+    group.first_block = block;
+    group.first_colour = colour;
+    group.first_filler = filler;
+    block += group.blocks;
+    colour += static_cast<std::int32_t>(group.members.size());
+    filler += 2 * group.empty_lanes;
   }
-  std::size_t old_wall = 0;
-  for (std::size_t w = 0; w < walls.size(); ++w) {
-    const auto before = [&](std::size_t k) { return WallContact{blocks.wall[k], blocks.wall_grain[k]}; };
-    while (old_wall < blocks.wall.size() && before(old_wall) < walls[w]) ++old_wall;
-    Candidate<Real> c{walls[w].grain, first_point(count) + static_cast<std::int32_t>(w), -1 - static_cast<std::int32_t>(w), 0, 0};
-    if (old_wall < blocks.wall.size() && before(old_wall) == walls[w]) {
-      const std::int32_t slot = blocks.wall_slot[old_wall];
-      c.pn = blocks.block[slot / kLanes].pn[slot % kLanes];
-      c.pt = blocks.block[slot / kLanes].pt[slot % kLanes];
-    }
-    contacts.push_back(c);
-  }
-
-  // Near contacts first: they fill the first blocks of few colours, and blocks of far ones rest until they are needed.
-  const double classes[] = {0.02 * system.skin, 0.06 * system.skin, 0.2 * system.skin};
-  const auto distance_class = [&](const Candidate<Real>& c) {
-    int k = 0;
-    if (c.pn > 0) return k;
-    if (c.pair < 0) {
-      const double g = gap(discs[c.i], walls[-1 - c.pair].wall, box);
-      while (k < 3 && g >= classes[k]) ++k;
-      return k;
-    }
-    const Disc &a = discs[c.i], &b = discs[c.j];
-    const double square = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y), sum = a.radius + b.radius;
-    while (k < 3 && square >= (sum + classes[k]) * (sum + classes[k])) ++k;
-    return k;
-  };
-  std::array<std::vector<Candidate<Real>>, 4> by_distance;
-  for (const Candidate<Real>& c : contacts) by_distance[distance_class(c)].push_back(c);
-  contacts.clear();
-  for (const auto& members : by_distance) contacts.insert(contacts.end(), members.begin(), members.end());
-
-  // Contacts by tile (the last one: between tiles) and colour; grain contacts and wall contacts apart.
-  using Members = std::vector<std::vector<std::int32_t>>;
-  const std::int32_t tiles = tile_count(count);
-  std::vector<Members> inner(tiles + 1), outer(tiles + 1);
-  const bool crowded = has_crowded_grain(contacts, count);
-  Colouring<1> own(crowded ? 0 : count), between(crowded ? 0 : count);
-  Colouring<64> own_crowded(crowded ? count : 0), between_crowded(crowded ? count : 0);
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const std::int32_t tile = contacts[c].i / kTileGrains;
-    const bool crossing = contacts[c].pair >= 0 && contacts[c].j / kTileGrains != tile;
-    const std::int32_t colour = crowded ? (crossing ? between_crowded : own_crowded).next(contacts[c])
-                                        : (crossing ? between : own).next(contacts[c]);
-    Members& members = (contacts[c].pair >= 0 ? inner : outer)[crossing ? tiles : tile];
-    if (static_cast<std::size_t>(colour) >= members.size()) members.resize(colour + 1);
-    members[colour].push_back(static_cast<std::int32_t>(c));
-  }
-
-  system.pair = std::move(pairs);
-  system.pair_slot.assign(system.pair.size(), 0);
-  blocks = {};
-  blocks.wall_slot.assign(walls.size(), 0);
-  for (const WallContact& w : walls) {
-    blocks.wall.push_back(w.wall);
-    blocks.wall_grain.push_back(w.grain);
-  }
-  std::int32_t filler = first_point(count) + static_cast<std::int32_t>(walls.size());
-  const auto fill = [&](const std::vector<std::int32_t>& members) {
-    for (std::size_t first = 0; first < members.size(); first += kLanes) {
-      ContactBlock<Real>& block = blocks.block.emplace_back();
-      for (int lane = 0; lane < kLanes; ++lane) {
-        if (first + lane >= members.size()) {
-          block.i[lane] = place_of(filler++);
-          block.j[lane] = place_of(filler++);
-          continue;
-        }
-        const Candidate<Real>& c = contacts[members[first + lane]];
-        const auto slot = static_cast<std::int32_t>((blocks.block.size() - 1) * kLanes) + lane;
-        (c.pair >= 0 ? system.pair_slot[c.pair] : blocks.wall_slot[-1 - c.pair]) = slot;
-        block.i[lane] = place_of(c.i);
-        block.j[lane] = place_of(c.j);
-        block.pn[lane] = c.pn;
-        block.pt[lane] = c.pt;
-        const double inverse = 1 / grains.mass[c.i] + (c.pair >= 0 ? 1 / grains.mass[c.j] : 0);
-        block.mass[lane] = static_cast<Real>(1 / inverse);
-      }
-    }
-  };
-  // Per colour: grain contacts, near to far, then wall contacts, each filled up to whole blocks.
-  for (std::int32_t tile = 0; tile <= tiles; ++tile) {
-    blocks.tile_colour.push_back(static_cast<std::int32_t>(blocks.colour.size()));
-    for (std::size_t k = 0; k < std::max(inner[tile].size(), outer[tile].size()); ++k) {
-      Colour& c = blocks.colour.emplace_back();
-      c.first = static_cast<std::int32_t>(blocks.block.size());
-      if (k < inner[tile].size()) fill(inner[tile][k]);
-      c.first_wall = static_cast<std::int32_t>(blocks.block.size());
-      if (k < outer[tile].size()) fill(outer[tile][k]);
-      c.last = static_cast<std::int32_t>(blocks.block.size());
-    }
-  }
-  blocks.wake.assign(blocks.block.size(), 0);
+  blocks.block.assign(block, {});
+  blocks.colour.assign(colour, {});
+  blocks.wake.assign(block, 0);
   blocks.bodies = filler;
+  blocks.wall.clear();
+  blocks.wall_grain.clear();
+  for (int wall = 0; wall < 3; ++wall)
+    for (std::int32_t tile = 0; tile < tiles; ++tile)
+      for (const std::int32_t grain : groups[tile].walls[wall]) {
+        blocks.wall.push_back(kWalls[wall]);
+        blocks.wall_grain.push_back(grain);
+      }
+  blocks.wall_slot.assign(walls, 0);
+  system.pair.resize(pairs);
+  system.pair_slot.assign(pairs, 0);
 
-  system.listed.resize(count);
-  for (std::size_t i = 0; i < count; ++i) system.listed[i] = {discs[i].x, discs[i].y};
+  in_parallel([&](std::int32_t tile) {
+    std::copy(groups[tile].pairs.begin(), groups[tile].pairs.end(), system.pair.begin() + groups[tile].first_pair);
+    fill(groups[tile], grains, system);
+  });
+  fill(between, grains, system);
+
+  system.listed.resize(grains.count());
+  for (std::size_t i = 0; i < grains.count(); ++i) system.listed[i] = {grains.disc[i].x, grains.disc[i].y};
   system.listed_closing = system.closing;
   ++system.rebuilds;
   refresh_derived(system, grains);
@@ -259,8 +355,8 @@ void place_wall_points(const ContactSystem<Real>& system, Grains& grains, const 
   }
 }
 
-template void list_contacts(ContactSystem<float>&, Grains&, const Box&);
-template void list_contacts(ContactSystem<double>&, Grains&, const Box&);
+template void list_contacts(ContactSystem<float>&, Grains&, const Box&, int);
+template void list_contacts(ContactSystem<double>&, Grains&, const Box&, int);
 template void refresh_derived(ContactSystem<float>&, Grains&);
 template void refresh_derived(ContactSystem<double>&, Grains&);
 template void enclose(ContactSystem<float>&, Grains&);

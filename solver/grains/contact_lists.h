@@ -11,8 +11,9 @@ inline std::int32_t tile_count(std::size_t grain_count) {
 }
 
 /// Makes the neighbour list and the blocks anew from the grains' places; contacts that stay keep their impulses.
+/// The same for any number of threads.
 template <class Real>
-void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box);
+void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, int threads = 1);
 
 /// Puts the points of the walls at the feet of their grains.
 template <class Real>

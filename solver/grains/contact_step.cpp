@@ -48,14 +48,14 @@ Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains
 
 template <class Real>
 bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
-                double step) {
+                double step, int threads) {
   // Two grains that may cross the whole skin within this step are looked for farther out; as the skin says less than such
   // a list holds, it wears early. The lists of the body wear by its own path too.
   const double skin = system.skin;
   const bool leaps = closing.likely > skin;
   const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin));
   if (leaps) system.skin = closing.reach;
-  if (worn) list_contacts(system, grains, box);
+  if (worn) list_contacts(system, grains, box, threads);
   if (body && (worn || body->listed_travel + closing.body_speed * step > skin))
     list_body_contacts(*body, grains, 3 * system.skin);
   system.skin = skin;
@@ -130,7 +130,7 @@ void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::in
 #define SEAPILE_INSTANTIATE(Real)                                                                                      \
   template Closing expected_closing(const ContactSystem<Real>&, const Grains&, const ContactLaw&, const RigidBody*,    \
                                     std::span<const double>);                                                          \
-  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double);             \
+  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, int);             \
   template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                                      \
   template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                                      \
   template void keep_step_impulses(ContactBlocks<Real>&, std::int32_t, std::int32_t, bool);

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <span>
@@ -31,7 +32,7 @@ Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains
 /// when the neighbour list was made anew.
 template <class Real>
 bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
-                double step);
+                double step, int threads);
 
 /// Adds the path of a step, drift + h v, to the places of a tile's grains; sets the tile's longest squared path.
 template <class Real>
@@ -54,6 +55,16 @@ base::Vec2 kept_impulse(const RigidBody& body);
 template <class Real>
 void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::int32_t last, bool afresh);
 
+/// Contacts of blocks [first, last) with an impulse.
+template <class Real>
+std::int64_t touching_in(const ContactBlocks<Real>& blocks, std::int32_t first, std::int32_t last) {
+  std::int64_t touching = 0;
+  for (std::int32_t b = first; b < last; ++b)
+    if (blocks.active[b])
+      for (int lane = 0; lane < kLanes; ++lane) touching += blocks.block[b].pn[lane] > 0;
+  return touching;
+}
+
 /// Chunks of the contacts between tiles of one colour.
 template <class Real>
 std::int32_t chunk_count(const ContactBlocks<Real>& blocks, std::int32_t colour) {
@@ -61,13 +72,37 @@ std::int32_t chunk_count(const ContactBlocks<Real>& blocks, std::int32_t colour)
   return (c.first_wall - c.first + kBlocksPerChunk - 1) / kBlocksPerChunk;
 }
 
+/// Where the threads of a team wait for each other, some tens of thousands of times per second: each wait is a few
+/// microseconds of work away from the next, so a thread looks for a while before it asks the system to be woken.
+class Meeting {
+ public:
+  /// Waits until all of so many threads have come.
+  void wait(int threads) {
+    const unsigned round = round_.load(std::memory_order_relaxed);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads) {
+      arrived_.store(0, std::memory_order_relaxed);
+      round_.store(round + 1, std::memory_order_release);
+      round_.notify_all();
+      return;
+    }
+    for (int look = 0; look < kLooks; ++look)
+      if (round_.load(std::memory_order_acquire) != round) return;
+    round_.wait(round, std::memory_order_acquire);
+  }
+
+ private:
+  static constexpr int kLooks = 20'000;
+  alignas(64) std::atomic<int> arrived_ = 0;
+  alignas(64) std::atomic<unsigned> round_ = 0;
+};
+
 /// What one thread of a team works on: whole tiles, so that they stay in its cache, and the contacts between tiles that
 /// begin in them.
 template <class Real>
 class Share {
  public:
-  Share(const ContactBlocks<Real>& blocks, std::size_t grain_count)
-      : blocks_(blocks), me_(omp_get_thread_num()), all_(omp_get_num_threads()), groups_(first_point(grain_count) / 4) {
+  Share(const ContactBlocks<Real>& blocks, std::size_t grain_count, Meeting& meeting)
+      : blocks_(blocks), meeting_(meeting), me_(omp_get_thread_num()), all_(omp_get_num_threads()), groups_(first_point(grain_count) / 4) {
     const std::int32_t tiles = tile_count(grain_count);
     first_tile = tiles * me_ / all_;
     last_tile = tiles * (me_ + 1) / all_;
@@ -77,10 +112,9 @@ class Share {
 
   bool leads() const { return me_ == 0; }
 
-  /// Waits for the others. A barrier of one would still be a system call.
+  /// Waits for the others.
   void meet() const {
-    if (all_ == 1) return;
-#pragma omp barrier
+    if (all_ > 1) meeting_.wait(all_);
   }
 
   /// First group of four bodies of a tile; the end of the last one's.
@@ -105,6 +139,7 @@ class Share {
 
  private:
   const ContactBlocks<Real>& blocks_;
+  Meeting& meeting_;
   int me_, all_;
   std::int32_t groups_;
 };

@@ -13,69 +13,68 @@ bool close(const Disc& a, const Disc& b, double skin) {
 
 }  // namespace
 
-std::vector<Pair> neighbour_pairs(std::span<const Disc> discs, double skin) {
-  if (discs.empty()) return {};
-  double x0 = discs[0].x, x1 = x0, y0 = discs[0].y, y1 = y0, largest = 0;
+CellGrid::CellGrid(std::span<const Disc> discs, double skin) : discs_(discs), skin_(skin) {
+  if (discs.empty()) return;
+  double x1 = discs[0].x, y1 = discs[0].y, largest = 0;
+  x0_ = x1, y0_ = y1;
   for (const Disc& d : discs) {
-    x0 = std::min(x0, d.x), x1 = std::max(x1, d.x);
-    y0 = std::min(y0, d.y), y1 = std::max(y1, d.y);
+    x0_ = std::min(x0_, d.x), x1 = std::max(x1, d.x);
+    y0_ = std::min(y0_, d.y), y1 = std::max(y1, d.y);
     largest = std::max(largest, d.radius);
   }
   // Cells no smaller than the longest reach, and not many more cells than grains, however far one has flown.
-  const double count = static_cast<double>(discs.size());
-  const double edge = std::max({2 * largest + skin, (x1 - x0) / (4 * std::sqrt(count) + 1000), (y1 - y0) / (4 * std::sqrt(count) + 1000)});
-  const auto nx = static_cast<std::int32_t>((x1 - x0) / edge) + 1;
-  const auto ny = static_cast<std::int32_t>((y1 - y0) / edge) + 1;
-  const auto column = [&](double x) { return std::min(static_cast<std::int32_t>((x - x0) / edge), nx - 1); };
-  const auto row = [&](double y) { return std::min(static_cast<std::int32_t>((y - y0) / edge), ny - 1); };
+  const double most = 4 * std::sqrt(static_cast<double>(discs.size())) + 1000;
+  edge_ = std::max({2 * largest + skin, (x1 - x0_) / most, (y1 - y0_) / most});
+  nx_ = static_cast<std::int32_t>((x1 - x0_) / edge_) + 1;
+  ny_ = static_cast<std::int32_t>((y1 - y0_) / edge_) + 1;
 
-  // Counting sort of the grains by cell; inside a cell by index. `inside` holds the grains in that order, side by side.
-  std::vector<std::int32_t> start(static_cast<std::size_t>(nx) * ny + 1), cell(discs.size());
+  // Counting sort.
+  start_.assign(static_cast<std::size_t>(nx_) * ny_ + 1, 0);
+  std::vector<std::int32_t> cell(discs.size());
   for (std::size_t i = 0; i < discs.size(); ++i) {
-    cell[i] = row(discs[i].y) * nx + column(discs[i].x);
-    ++start[cell[i] + 1];
+    cell[i] = row(discs[i].y) * nx_ + column(discs[i].x);
+    ++start_[cell[i] + 1];
   }
-  for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
-  struct Inside {
-    double x, y, reach;  // reach: radius + skin / 2
-    std::int32_t grain;
-  };
-  std::vector<Inside> inside(discs.size());
-  std::vector<std::int32_t> next(start.begin(), start.end() - 1);
+  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
+  std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+  inside_.resize(discs.size());
   for (std::size_t i = 0; i < discs.size(); ++i)
-    inside[next[cell[i]]++] = {discs[i].x, discs[i].y, discs[i].radius + 0.5 * skin, static_cast<std::int32_t>(i)};
+    inside_[next[cell[i]]++] = {discs[i].x, discs[i].y, discs[i].radius + 0.5 * skin, static_cast<std::int32_t>(i)};
+}
 
-  // Each pair once: with the rest of the own cell and the next one, and with the three cells of the next row, which
-  // stand side by side.
-  std::vector<Pair> found;
-  found.reserve(discs.size() * 4);
-  const auto search = [&](const Inside& a, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t k = begin; k < end; ++k) {
-      const Inside& b = inside[k];
-      const double dx = b.x - a.x, dy = b.y - a.y, reach = a.reach + b.reach;
-      if (dx * dx + dy * dy < reach * reach) found.push_back({std::min(a.grain, b.grain), std::max(a.grain, b.grain)});
-    }
-  };
-  for (std::int32_t cy = 0; cy < ny; ++cy)
-    for (std::int32_t cx = 0; cx < nx; ++cx) {
-      const std::int32_t here = cy * nx + cx;
-      const std::int32_t beside = start[here + (cx + 1 < nx ? 2 : 1)];
-      const std::int32_t above = cy + 1 < ny ? start[here + nx - (cx > 0 ? 1 : 0)] : 0;
-      const std::int32_t above_end = cy + 1 < ny ? start[here + nx + (cx + 1 < nx ? 2 : 1)] : 0;
-      for (std::int32_t k = start[here]; k < start[here + 1]; ++k) {
-        search(inside[k], k + 1, beside);
-        search(inside[k], above, above_end);
+std::int32_t CellGrid::column(double x) const { return std::min(static_cast<std::int32_t>((x - x0_) / edge_), nx_ - 1); }
+std::int32_t CellGrid::row(double y) const { return std::min(static_cast<std::int32_t>((y - y0_) / edge_), ny_ - 1); }
+
+void CellGrid::find_pairs(std::int32_t first, std::int32_t last, std::vector<Pair>& pairs) const {
+  for (std::int32_t i = first; i < last; ++i) {
+    const Disc& a = discs_[i];
+    const double own = a.radius + 0.5 * skin_;
+    const std::int32_t cx = column(a.x), cy = row(a.y);
+    const std::size_t begin = pairs.size();
+    // The three cells of a row stand side by side.
+    for (std::int32_t y = std::max(cy - 1, 0); y <= std::min(cy + 1, ny_ - 1); ++y) {
+      const std::int32_t from = start_[y * nx_ + std::max(cx - 1, 0)];
+      const std::int32_t to = start_[y * nx_ + std::min(cx + 1, nx_ - 1) + 1];
+      for (std::int32_t k = from; k < to; ++k) {
+        const Inside& b = inside_[k];
+        const double dx = b.x - a.x, dy = b.y - a.y, reach = own + b.reach;
+        if (b.grain > i && dx * dx + dy * dy < reach * reach) pairs.push_back({i, b.grain});
       }
     }
+    // A handful, by insertion.
+    for (std::size_t p = begin + 1; p < pairs.size(); ++p) {
+      const Pair pair = pairs[p];
+      std::size_t at = p;
+      for (; at > begin && pair.j < pairs[at - 1].j; --at) pairs[at] = pairs[at - 1];
+      pairs[at] = pair;
+    }
+  }
+}
 
-  // Ascending: by the first grain through counting, then the few pairs of each.
-  std::vector<std::int32_t> first(discs.size() + 1);
-  for (const Pair& p : found) ++first[p.i + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-  std::vector<std::int32_t> place(first.begin(), first.end() - 1);
-  std::vector<Pair> pairs(found.size());
-  for (const Pair& p : found) pairs[place[p.i]++] = p;
-  for (std::size_t i = 0; i < discs.size(); ++i) std::sort(pairs.begin() + first[i], pairs.begin() + first[i + 1]);
+std::vector<Pair> neighbour_pairs(std::span<const Disc> discs, double skin) {
+  std::vector<Pair> pairs;
+  pairs.reserve(discs.size() * 4);
+  CellGrid(discs, skin).find_pairs(0, static_cast<std::int32_t>(discs.size()), pairs);
   return pairs;
 }
 

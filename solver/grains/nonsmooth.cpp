@@ -151,7 +151,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   Laps serial(profile, true);
 
   const Closing closing = expected_closing(system, grains, law, body, body_path);
-  report.rebuilt = keep_lists(system, grains, box, body, closing, dt);
+  report.rebuilt = keep_lists(system, grains, box, body, closing, dt, team.threads);
   serial.lap(in_list);
 
   ContactBlocks<Real>& blocks = system.blocks;
@@ -188,9 +188,10 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
                   system.before.data(), static_cast<Real>(friction), &sum);
   };
 
+  Meeting meeting;
 #pragma omp parallel num_threads(team.threads) if (team.threads > 1)
   {
-    const Share<Real> share(blocks, grains.count());
+    const Share<Real> share(blocks, grains.count(), meeting);
     Laps laps(profile, share.leads());
     /// Calls work(first, last, friction, sum) for every run of blocks inside this thread's tiles.
     const auto for_own = [&](std::int32_t tile, auto&& work) {

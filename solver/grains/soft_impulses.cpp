@@ -53,7 +53,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   Laps serial(profile, true);
 
   const Closing closing = expected_closing(system, grains, law, body, body_path);
-  report.rebuilt = keep_lists(system, grains, box, body, closing, law.step);
+  report.rebuilt = keep_lists(system, grains, box, body, closing, law.step, team.threads);
   serial.lap(in_list);
 
   ContactBlocks<Real>& blocks = system.blocks;
@@ -67,6 +67,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   const Nearness near{closing.margin, law.step, system.closing, closing.reach};
   BodySweep body_sweep;
   base::Vec2 body_before;  // velocity of the body at the start of the sub-step
+  std::atomic<std::int64_t> touching = 0;
   double kept_work = 0;    // of the body's kept impulses on its own motion, as the grains feel them [J/m]
 
   const auto refresh = [&](std::int32_t first, std::int32_t last) {
@@ -78,9 +79,10 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
                  static_cast<Real>(friction), soft_real, &sums);
   };
 
+  Meeting meeting;
 #pragma omp parallel num_threads(team.threads) if (team.threads > 1)
   {
-    const Share<Real> share(blocks, grains.count());
+    const Share<Real> share(blocks, grains.count(), meeting);
     Laps laps(profile, share.leads());
 
     // Detection: normals and gaps, and the velocity change by the impulses kept from the last step.
@@ -162,10 +164,17 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
       laps.lap(in_pile);
     }
 
+    std::int64_t own_touching = 0;
     for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
       move_places(system, grains, tile, h);
       system.body_sums[tile].lift += last_lift(system, grains, tile, h * law.gravity);
+      own_touching += touching_in(blocks, share.first_block(tile), share.first_block(tile + 1));
     }
+    for (std::int32_t colour = first_between; colour < colours; ++colour)
+      share.between(colour, [&](std::int32_t, std::int32_t first, std::int32_t last) {
+        own_touching += touching_in(blocks, first, last);
+      });
+    touching += own_touching;
     laps.lap(in_places);
   }
 
@@ -179,10 +188,6 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   for (const BodySums& s : system.body_sums) warm_work += s.work, lift += s.lift;
   // The impulses' work on the mean of the velocities at both ends of a sub-step (formulation.md 2.6).
   totals.dissipation += kept_work - warm_work - sweep_work - body_sweep.work - 0.5 * h * law.gravity * lift;
-  std::int64_t touching = 0;
-  for (std::size_t k = 0; k < blocks.block.size(); ++k)
-    if (blocks.active[k])
-      for (int lane = 0; lane < kLanes; ++lane) touching += blocks.block[k].pn[lane] > 0;
   if (touching > 0)
     report.residual = std::sqrt((residual + body_sweep.residual) / (static_cast<double>(touching) * law.substeps));
   return report;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <numbers>
 #include <set>
@@ -152,8 +153,22 @@ TEST(ContactLists, AGrainMayHaveMoreThan64Neighbours) {
   ASSERT_GE(scene.system.pair.size(), 400u);
 }
 
-TEST(ContactLists, MoreNeighboursThanColoursAreRefused) {
-  EXPECT_THROW(listed(planet(4700, 2000), {-support::kFar, support::kFar, -support::kFar}), std::runtime_error);
+TEST(ContactLists, AnyNumberOfThreadsMakesTheSameList) {
+  const Box box{0, 1.43, 0};
+  const auto discs = support::jittered_lattice(2000, 35, 0.01, 0.02, 6);
+  const auto one = listed(discs, box);
+  for (const int threads : {2, 3, 7}) {
+    support::ContactScene<float> scene(discs);
+    scene.box = box;
+    list_contacts(scene.system, scene.grains, box, threads);
+    EXPECT_TRUE(scene.system.pair == one.system.pair);
+    EXPECT_TRUE(scene.system.pair_slot == one.system.pair_slot);
+    EXPECT_TRUE(scene.system.blocks.wall_slot == one.system.blocks.wall_slot);
+    EXPECT_EQ(scene.system.blocks.bodies, one.system.blocks.bodies);
+    ASSERT_EQ(scene.system.blocks.block.size(), one.system.blocks.block.size());
+    const std::size_t bytes = one.system.blocks.block.size() * sizeof(ContactBlock<float>);
+    EXPECT_EQ(std::memcmp(scene.system.blocks.block.data(), one.system.blocks.block.data(), bytes), 0);
+  }
 }
 
 TEST(ContactLists, ContactsThatStayKeepTheirImpulsesOverARebuild) {
