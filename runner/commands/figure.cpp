@@ -48,7 +48,7 @@ std::optional<present::View> view_of(const std::vector<double>& window) {
 std::size_t frame_at(double depth, const std::vector<double>& asked, const std::string& id) {
   const auto distance = [&](double other) { return std::abs(other - depth); };
   const auto nearest = std::ranges::min_element(asked, {}, distance);
-  if (distance(*nearest) > kDepthTolerance) {
+  if (!(distance(*nearest) <= kDepthTolerance)) {  // so that no depth is near to "not a number"
     throw UsageError(fmt::format("{} has no frame within 1 mm of {:g} m; its frames are at {:g} m", id, depth,
                                  fmt::join(asked, ", ")));
   }
@@ -127,7 +127,9 @@ void add_figure(CLI::App& app, Call& call) {
       ->required()
       ->type_name("")
       ->check([](const std::string& word) {
-        return kKinds.contains(word) ? std::string() : "there is no figure \"" + word + "\"; there are bed, forces, stress and velocity";
+        return kKinds.contains(word)
+                   ? std::string()
+                   : "there is no figure \"" + word + "\"; there are bed, forces, stress and velocity";
       });
   command->add_option("RUN", arguments.runs, "Case ids, or how they begin; two runs share every scale")
       ->required()
@@ -138,7 +140,8 @@ void add_figure(CLI::App& app, Call& call) {
       ->type_name("X0,X1,Y0,Y1")
       ->delimiter(',')
       ->expected(4);
-  command->add_option("-o,--out", arguments.out, "Picture to write, .svg or .png; default: KIND.svg")->type_name("FILE");
+  command->add_option("-o,--out", arguments.out, "Picture to write, .svg or .png; default: KIND.svg")
+      ->type_name("FILE");
   add_store_option(*command, arguments.root);
   command->footer(
       "Kinds:\n"
@@ -147,7 +150,8 @@ void add_figure(CLI::App& app, Call& call) {
       "  stress    an ellipse per cell, its semi-axes the principal stresses, coloured by the major one\n"
       "  velocity  an arrow per grain, coloured by its speed over the largest speed of the pile\n"
       "Without --window, bed shows the whole box; the others show 1.2 m by 1.2 m, the tip at a third from the top.\n"
-      "x is 0 in the middle of the box, y is 0 at its base. A frame has to have been asked for within 1 mm of --depth.\n"
+      "x is 0 in the middle of the box, y is 0 at its base. A frame has to have been asked for within 1 mm of "
+      "--depth.\n"
       "\n"
       "Examples:\n"
       "  runner figure forces 1a2b3c4d5e --depth 0.6 -o forces.svg\n"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "runner/present/lettering.h"
 #include "runner/store/store_error.h"
 
 namespace seapile::present {
@@ -29,10 +30,7 @@ cairo_surface_t* new_surface(PictureFormat format, double width, double height, 
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : byte < 0x20 || byte == 0x7f ? " " : std::string(1, c);
-  }
+  for (const char c : readable(text)) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return result;
 }
 
@@ -73,6 +71,9 @@ std::string Canvas::finish(const std::string& description) {
     const std::size_t root = bytes_.find("<svg"), behind = bytes_.find('>', root);
     if (root == std::string::npos || behind == std::string::npos) check(CAIRO_STATUS_WRITE_ERROR);
     bytes_.insert(behind + 1, "\n<desc>" + escaped(description) + "</desc>");
+    // The drawing is a group that cairo names by how many surfaces the process has had: nobody refers to it.
+    const std::size_t name = bytes_.find(R"( id="surface)");
+    if (name != std::string::npos) bytes_.erase(name, bytes_.find('>', name) - name);
   }
   return std::move(bytes_);
 }

@@ -14,23 +14,38 @@ namespace {
 
 // In units of the canvas.
 constexpr double kWidest = 640, kTallest = 480;  ///< a panel
-constexpr double kSide = 14, kHeading = 26, kPanelTitle = 22, kLeftAxis = 46, kBottomAxis = 38, kRemark = 22, kGap = 18;
+constexpr double kSide = 14, kHeading = 26, kPanelTitle = 22, kName = 18, kBottomAxis = 38, kRemark = 22, kGap = 18;
 constexpr double kLeastLegend = 210;  ///< height
-constexpr double kTick = 4, kTickEvery = 45;
+constexpr double kTick = 4, kTickEvery = 45, kDigit = 6.8;
 
 const char* heading(FigureKind kind) {
   switch (kind) {
-    case FigureKind::bed: return "Grains by their initial layer";
-    case FigureKind::forces: return "Contact forces";
-    case FigureKind::stress: return "Principal stresses";
-    case FigureKind::velocity: return "Velocities";
+    case FigureKind::bed:
+      return "Grains by their initial layer";
+    case FigureKind::forces:
+      return "Contact forces";
+    case FigureKind::stress:
+      return "Principal stresses";
+    case FigureKind::velocity:
+      return "Velocities";
   }
   return "";
 }
 
 std::string title_of(const FramePanel& panel) { return fmt::format("{}, d = {:.3f} m", panel.title, panel.depth); }
 
-void draw_axes(cairo_t* context, const Mapping& map, double step, bool with_name) {
+/// Room for the numbers beside the panels' left edges.
+double room_for_numbers(const FrameFigure& figure, double step) {
+  std::size_t longest = 0;
+  for (const FramePanel& panel : figure.panels) {
+    for (const Tick& tick : ticks(panel.view.bottom, panel.view.top, step))
+      longest = std::max(longest, tick.text.size());
+  }
+  return static_cast<double>(longest) * kDigit + kTick + 3;
+}
+
+/// `name_at`: how far left of the panel the y axis is named; 0: nowhere.
+void draw_axes(cairo_t* context, const Mapping& map, double step, double name_at) {
   cairo_set_source_rgb(context, 0.2, 0.2, 0.2);
   cairo_set_line_width(context, 0.8);
   cairo_rectangle(context, map.left, map.top, map.right() - map.left, map.bottom() - map.top);
@@ -52,7 +67,8 @@ void draw_axes(cairo_t* context, const Mapping& map, double step, bool with_name
   }
   const Lettering names{11, Align::middle};
   write(context, (map.left + map.right()) / 2, map.bottom() + 31, "x [m]", names);
-  if (with_name) write(context, map.left - 34, (map.top + map.bottom()) / 2, "height above the base y [m]", names, true);
+  if (name_at > 0)
+    write(context, map.left - name_at, (map.top + map.bottom()) / 2, "height above the base y [m]", names, true);
 }
 
 void draw_panel(cairo_t* context, const FrameFigure& figure, const FramePanel& panel, const Mapping& map) {
@@ -82,30 +98,33 @@ std::string picture_of(const FrameFigure& figure, PictureFormat format) {
     all += panel.view.width();
   }
   const double scale = std::min(kWidest / widest, kTallest / tallest);
-  const double longest = std::max(widest, tallest), step = nice_step(longest, static_cast<int>(longest * scale / kTickEvery));
-  const double legend = legend_width(figure.kind);
+  const double longest = std::max(widest, tallest),
+               step = nice_step(longest, static_cast<int>(longest * scale / kTickEvery));
+  const double legend = legend_width(figure.kind), numbers = room_for_numbers(figure, step);
   const double tall = std::max(tallest * scale, legend > 0 ? kLeastLegend : 0);
   const double top = kSide + kHeading + kPanelTitle;
   const auto count = static_cast<double>(figure.panels.size());
-  const double width = 2 * kSide + count * kLeftAxis + all * scale + (count - 1) * kGap + (legend > 0 ? kGap + legend : 0);
+  const double width =
+      2 * kSide + kName + count * numbers + all * scale + (count - 1) * kGap + (legend > 0 ? kGap + legend : 0);
 
   Canvas canvas(format, width, top + tall + kBottomAxis + kRemark + kSide);
   cairo_t* context = canvas.context();
   std::string description = fmt::format("{}.", heading(figure.kind));
   write(context, kSide, kSide + 14, heading(figure.kind), {15, Align::left, true});
-  double left = kSide;
+  double left = kSide + kName;
   for (const FramePanel& panel : figure.panels) {
-    left += kLeftAxis;
+    left += numbers;
     const Mapping map{panel.view, left, top, scale};
     draw_panel(context, figure, panel, map);
-    draw_axes(context, map, step, &panel == &figure.panels.front());
+    draw_axes(context, map, step, &panel == &figure.panels.front() ? numbers + 5 : 0);
     write_within(context, left, top - 7, map.right() - left, title_of(panel), {12, Align::left, true});
     description += fmt::format(" {}.", title_of(panel));
     left = map.right() + kGap;
   }
   if (legend > 0) draw_legend(context, figure, left, top, tall, scale);
   const std::string line = remark(figure);
-  write_within(context, kSide, top + tall + kBottomAxis + 14, width - 2 * kSide, line, {10.5, Align::left, false, 0.35});
+  write_within(context, kSide, top + tall + kBottomAxis + 14, width - 2 * kSide, line,
+               {10.5, Align::left, false, 0.35});
   return canvas.finish(description + " " + line);
 }
 

@@ -18,9 +18,9 @@ using base::Vec2;
 constexpr double kTipFromTop = 1.0 / 3;  ///< of the view's height
 constexpr double kMargin = 0.02;         ///< around the box, share of the view's larger edge
 constexpr int kMostLayers = 25;
-constexpr double kWidestLine = 0.8;    ///< of the largest force, in mean grain diameters
-constexpr double kLongestAxis = 1.0;   ///< semi-axis of the largest stress, in cells
-constexpr double kPileArrow = 1.5;     ///< the pile's speed as an arrow, in mean grain diameters
+constexpr double kWidestLine = 0.8;   ///< of the largest force, in mean grain diameters
+constexpr double kLongestAxis = 1.0;  ///< semi-axis of the largest stress, in cells
+constexpr double kPileArrow = 1.5;    ///< the pile's speed as an arrow, in mean grain diameters
 
 template <class T>
 const std::vector<T>& values(const std::vector<simulation::Array>& arrays, const char* name) {
@@ -123,8 +123,7 @@ std::vector<DrawnForce> force_lines(const FrameOfRun& run) {
   for (std::size_t k = 0; 2 * k < pair.size(); ++k) {
     if (force.at(2 * k) <= 0) continue;
     const bool with_grain = pair[2 * k + 1] >= 0;
-    lines.push_back(
-        {centre(pair[2 * k]), with_grain ? centre(pair[2 * k + 1]) : vec2(point, k), force.at(2 * k), 0});
+    lines.push_back({centre(pair[2 * k]), with_grain ? centre(pair[2 * k + 1]) : vec2(point, k), force.at(2 * k), 0});
   }
   return lines;
 }
@@ -230,9 +229,10 @@ FrameFigure frame_figure(FigureKind kind, const std::vector<FrameOfRun>& runs, c
     panel.pile_speed = pile::largest_speed(pile_of(run).driving);
     panel.view = view ? *view : kind == FigureKind::bed ? whole : default_view(kind, run);
     if (!meet(panel.view, panel.box)) {
-      throw std::invalid_argument(fmt::format("the window shows nothing of the box, which is x from {:g} to {:g} m and "
-                                              "y from 0 to {:g} m",
-                                              panel.box.left, panel.box.right, panel.box.top));
+      throw std::invalid_argument(
+          fmt::format("the window shows nothing of the box, which is x from {:g} to {:g} m and "
+                      "y from 0 to {:g} m",
+                      panel.box.left, panel.box.right, panel.box.top));
     }
     panel.pile = outline_of(run, panel.view.top);
     figure.panels.push_back(std::move(panel));

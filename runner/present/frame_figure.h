@@ -28,9 +28,9 @@ struct View {
 
 /// A frame of a drive, and what is known of its run.
 struct FrameOfRun {
-  std::string title;        ///< what tells the run from others
-  scene::SceneSpec scene;   ///< with a pile
-  double surface = 0;       ///< height of the initial bed surface above the base [m]
+  std::string title;       ///< what tells the run from others
+  scene::SceneSpec scene;  ///< with a pile
+  double surface = 0;      ///< height of the initial bed surface above the base [m]
   simulation::Frame frame;
 };
 
@@ -61,9 +61,9 @@ struct DrawnVelocity {
 
 struct FramePanel {
   std::string title;
-  double depth = 0;  ///< d [m]
-  View view;         ///< what is seen
-  View box;          ///< its walls and base; open at the top
+  double depth = 0;              ///< d [m]
+  View view;                     ///< what is seen
+  View box;                      ///< its walls and base; open at the top
   double surface = 0;            ///< height of the initial bed surface [m]
   std::vector<base::Vec2> pile;  ///< outline, from the left sleeve's top over the tip to the right one's
   double pile_speed = 0;         ///< its largest one [m/s]

@@ -87,10 +87,11 @@ void draw_stress_legend(cairo_t* context, const FrameFigure& figure, double x, d
   const auto [unit, size] = pressure_prefix(figure.scale.full);
   write(context, x, y + 9, "major principal", {11});
   write(context, x, y + 23, fmt::format("stress [{}]", unit), {11});
-  const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar), figure.scale.full / size, false);
+  const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar),
+                                 figure.scale.full / size, false);
   // A circle: a stress that is the same in all directions.
-  const double stress = nice_below(figure.scale.full / size), radius = stress * size / figure.scale.full *
-                                                                       figure.scale.length * scale;
+  const double stress = nice_below(figure.scale.full / size),
+               radius = stress * size / figure.scale.full * figure.scale.length * scale;
   const double middle = bottom + 22 + radius;
   cairo_new_path(context);
   cairo_arc(context, x + radius, middle, radius, 0, 2 * std::numbers::pi);
@@ -103,7 +104,8 @@ void draw_stress_legend(cairo_t* context, const FrameFigure& figure, double x, d
   write(context, x + 2 * radius + 6, middle + 3.7, fmt::format("{:g} {}", stress, unit), {10.5});
 }
 
-void draw_velocity_legend(cairo_t* context, const FrameFigure& figure, double x, double y, double height, double scale) {
+void draw_velocity_legend(cairo_t* context, const FrameFigure& figure, double x, double y, double height,
+                          double scale) {
   write(context, x, y + 9, "speed over", {11});
   write(context, x, y + 23, "the pile's [-]", {11});
   const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar), 1, true);
@@ -130,9 +132,10 @@ void draw_legend(cairo_t* context, const FrameFigure& figure, double x, double y
 std::string remark(const FrameFigure& figure) {
   switch (figure.kind) {
     case FigureKind::bed:
-      return fmt::format("Tones change every {:g} m of the height at which a grain lay before the drive. Dashed: the bed's "
-                         "surface then.",
-                         figure.scale.layer);
+      return fmt::format(
+          "Tones change every {:g} m of the height at which a grain lay before the drive. Dashed: the bed's "
+          "surface then.",
+          figure.scale.layer);
     case FigureKind::forces:
       return "A line per contact, as wide as its normal force is large; between centres, or to the point of contact.";
     case FigureKind::stress:
@@ -141,7 +144,8 @@ std::string remark(const FrameFigure& figure) {
       std::vector<std::string> speeds;
       for (const FramePanel& panel : figure.panels) speeds.push_back(fmt::format("{:g} m/s", panel.pile_speed));
       if (std::ranges::count(speeds, speeds.front()) == std::ssize(speeds)) speeds.resize(1);
-      return fmt::format("An arrow per grain, from its centre. Largest speed of the pile: {}.", fmt::join(speeds, "; "));
+      return fmt::format("An arrow per grain, from its centre. Largest speed of the pile: {}.",
+                         fmt::join(speeds, "; "));
     }
   }
   return "";

@@ -11,12 +11,12 @@ namespace {
 
 using base::Vec2;
 
-constexpr double kGrid = 8;          ///< places per unit: shorter numbers in SVG files, too fine to be seen
-constexpr double kSizes = 16;         ///< diameters of dots per unit
+constexpr double kGrid = 8;    ///< places per unit: shorter numbers in SVG files, too fine to be seen
+constexpr double kSizes = 16;  ///< diameters of dots per unit
 constexpr double kLayerTones[] = {0.76, 0.42};
 constexpr Colour kForce = {0.13, 0.13, 0.40}, kPileFill = {0.80, 0.84, 0.90}, kPileEdge = {0.16, 0.22, 0.32};
-constexpr int kShades = 64;          ///< of the colour map; more are not told apart
-constexpr double kHead = 3.2;        ///< of an arrow
+constexpr int kShades = 64;    ///< of the colour map; more are not told apart
+constexpr double kHead = 3.2;  ///< of an arrow
 constexpr double kSmallestMark = 0.25;
 
 double rounded(double value) { return std::round(value * kGrid) / kGrid; }
@@ -188,7 +188,8 @@ void draw_box(cairo_t* context, const Mapping& map, const View& box) {
 
 void draw_surface(cairo_t* context, const Mapping& map, const View& box, double surface) {
   if (surface <= map.view.bottom || surface >= map.view.top) return;
-  const Vec2 left = map({std::max(box.left, map.view.left), surface}), right = map({std::min(box.right, map.view.right), surface});
+  const Vec2 left = map({std::max(box.left, map.view.left), surface}),
+             right = map({std::min(box.right, map.view.right), surface});
   const double dashes[] = {5, 3};
   set_colour(context, {0.75, 0.20, 0.10});
   cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);

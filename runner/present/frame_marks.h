@@ -30,7 +30,8 @@ enum class GrainLook {
 
 void draw_grains(cairo_t* context, const Mapping& map, const std::vector<DrawnGrain>& grains, GrainLook look);
 
-/// Lines with round ends, each as wide as it says to within kWidthStep / 2; what would be thinner than that is left out.
+/// Lines with round ends, each as wide as it says to within kWidthStep / 2; what would be thinner than that is left
+/// out.
 void draw_forces(cairo_t* context, const Mapping& map, const std::vector<DrawnForce>& lines);
 inline constexpr double kWidthStep = 0.04;
 

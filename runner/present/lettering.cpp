@@ -15,12 +15,18 @@ void choose(cairo_t* context, const Lettering& look) {
   cairo_set_font_size(context, look.size);
 }
 
-/// cairo refuses a text that is not UTF-8, and with it the whole picture.
+}  // namespace
+
 std::string readable(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+    const std::size_t length = lead < 0x80   ? 1
+                               : lead < 0xC2 ? 0
+                               : lead < 0xE0 ? 2
+                               : lead < 0xF0 ? 3
+                               : lead < 0xF5 ? 4
+                                             : 0;
     bool whole = length > 0 && i + length <= text.size();
     for (std::size_t k = 1; whole && k < length; ++k) whole = (text[i + k] & 0xC0) == 0x80;
     result += !whole ? "?" : lead < 0x20 ? " " : text.substr(i, length);
@@ -28,8 +34,6 @@ std::string readable(const std::string& text) {
   }
   return result;
 }
-
-}  // namespace
 
 double text_width(cairo_t* context, const std::string& text, const Lettering& look) {
   choose(context, look);

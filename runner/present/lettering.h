@@ -16,6 +16,9 @@ struct Lettering {
   double grey = 0.1;  ///< 0 black, 1 white
 };
 
+/// The text as UTF-8 on one line, whatever it was: cairo refuses anything else, and with it the whole picture.
+std::string readable(const std::string& text);
+
 double text_width(cairo_t* context, const std::string& text, const Lettering& look);
 
 /// Writes on the base line that begins, has its middle, or ends at (x, y); turned, upwards along it.
