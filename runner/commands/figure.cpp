@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
@@ -21,10 +22,9 @@ constexpr double kDepthTolerance = 1e-3;  ///< [m] between the depth that is ask
 struct FigureArguments {
   present::FigureKind kind = present::FigureKind::bed;
   std::string kind_name;
-  std::vector<std::string> runs;
+  std::string run, second;
   std::optional<double> depth;
-  std::vector<double> window;
-  std::string out, root = "results";
+  std::string window, out, root = "results";
 };
 
 const std::map<std::string, present::FigureKind> kKinds = {{"bed", present::FigureKind::bed},
@@ -32,13 +32,28 @@ const std::map<std::string, present::FigureKind> kKinds = {{"bed", present::Figu
                                                            {"stress", present::FigureKind::stress},
                                                            {"velocity", present::FigureKind::velocity}};
 
-std::optional<present::View> view_of(const std::vector<double>& window) {
+/// A number, and nothing behind it.
+double number_in(const std::string& text) {
+  std::size_t read = 0;
+  try {
+    const double number = std::stod(text, &read);
+    return read == text.size() ? number : std::nan("");
+  } catch (const std::logic_error&) {
+    return std::nan("");
+  }
+}
+
+std::optional<present::View> view_of(const std::string& window) {
   if (window.empty()) return std::nullopt;
-  const present::View view{window.at(0), window.at(1), window.at(2), window.at(3)};
-  const bool is_finite = std::ranges::all_of(window, [](double value) { return std::isfinite(value); });
-  if (!is_finite || view.width() <= 0 || view.height() <= 0) {
+  std::vector<double> edges;
+  std::istringstream in(window);
+  for (std::string text; std::getline(in, text, ',');) edges.push_back(number_in(text));
+  const bool is_complete =
+      edges.size() == 4 && std::ranges::all_of(edges, [](double edge) { return std::isfinite(edge); });
+  if (!is_complete || edges[0] >= edges[1] || edges[2] >= edges[3]) {
     throw UsageError("--window: x0,x1,y0,y1 in metres, with x0 < x1 and y0 < y1");
   }
+  const present::View view{edges[0], edges[1], edges[2], edges[3]};
   const double longer = std::max(view.width(), view.height()), shorter = std::min(view.width(), view.height());
   if (longer > 20 * shorter) throw UsageError("--window: one edge is more than 20 times as long as the other");
   return view;
@@ -96,8 +111,10 @@ int figure(const FigureArguments& arguments) {
   const auto view = view_of(arguments.window);
 
   const auto catalogue = store::Catalogue::open_read_only(arguments.root);
+  std::vector<std::string> prefixes = {arguments.run};
+  if (!arguments.second.empty()) prefixes.push_back(arguments.second);
   std::vector<fs::path> folders;
-  for (const std::string& prefix : arguments.runs) {
+  for (const std::string& prefix : prefixes) {
     folders.push_back(usage_checked([&] { return catalogue.find(prefix); }));
     if (!folders.back().empty()) continue;
     fmt::print(stderr, "no case has an id that begins with {}\n", prefix);
@@ -131,15 +148,10 @@ void add_figure(CLI::App& app, Call& call) {
                    ? std::string()
                    : "there is no figure \"" + word + "\"; there are bed, forces, stress and velocity";
       });
-  command->add_option("RUN", arguments.runs, "Case ids, or how they begin; two runs share every scale")
-      ->required()
-      ->type_name("")
-      ->expected(1, 2);
+  command->add_option("RUN", arguments.run, "Case id, or how it begins")->required()->type_name("");
+  command->add_option("RUN2", arguments.second, "Another one, drawn beside it on the same scales")->type_name("");
   command->add_option("--depth", arguments.depth, "Depth d of the tip [m]; default: the last frame of the first run");
-  command->add_option("--window", arguments.window, "What is seen [m]; default: see below")
-      ->type_name("X0,X1,Y0,Y1")
-      ->delimiter(',')
-      ->expected(4);
+  command->add_option("--window", arguments.window, "What is seen [m]; default: see below")->type_name("X0,X1,Y0,Y1");
   command->add_option("-o,--out", arguments.out, "Picture to write, .svg or .png; default: KIND.svg")
       ->type_name("FILE");
   add_store_option(*command, arguments.root);

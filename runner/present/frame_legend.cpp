@@ -14,15 +14,15 @@
 namespace seapile::present {
 namespace {
 
-constexpr double kBarWidth = 14, kShortestBar = 90, kTallestBar = 240;
-constexpr int kBarSteps = 128;
+constexpr double kBarWidth = 14, kShortestBar = 80, kTallestBar = 240;
+constexpr int kBarStops = 30;  ///< between which colours are straight
 
 /// The largest of 1, 2 or 5 times a power of ten that is not above a value > 0.
 double nice_below(double value) {
   const double step = nice_step(value, 1);
   if (step <= value * (1 + 1e-9)) return step;
   const double power = std::pow(10, std::floor(std::log10(step) + 1e-9));
-  return step / power < 1.5 ? step / 2 : step / power < 3 ? step / 2 : step / 2.5;
+  return step / power < 3 ? step / 2 : step / 2.5;  // 1 or 2, or 5
 }
 
 struct Prefix {
@@ -36,18 +36,16 @@ Prefix pressure_prefix(double full) {
 
 /// Colours from 0 at the bottom to `full` at the top, with ticks; returns its lower end on the canvas.
 double draw_bar(cairo_t* context, double x, double y, double height, double full, bool more_above) {
-  // Without smoothing the steps leave no seams between them.
-  cairo_save(context);
-  cairo_set_antialias(context, CAIRO_ANTIALIAS_NONE);
-  for (int k = 0; k < kBarSteps; ++k) {
-    set_colour(context, colour_of((k + 0.5) / kBarSteps));
-    // Down to the end, each covered by the next ones: no gap, whatever the viewer rounds to.
-    const double top = y + height * (1 - static_cast<double>(k + 1) / kBarSteps);
-    const double bottom = y + height * (1 - static_cast<double>(k) / kBarSteps);
-    cairo_rectangle(context, x, top, kBarWidth, std::min(bottom - top + 0.5, y + height - top));
-    cairo_fill(context);
+  cairo_pattern_t* colours = cairo_pattern_create_linear(0, y + height, 0, y);
+  for (int k = 0; k <= kBarStops; ++k) {
+    const double share = static_cast<double>(k) / kBarStops;
+    const Colour colour = colour_of(share);
+    cairo_pattern_add_color_stop_rgb(colours, share, colour.red, colour.green, colour.blue);
   }
-  cairo_restore(context);
+  cairo_set_source(context, colours);
+  cairo_pattern_destroy(colours);
+  cairo_rectangle(context, x, y, kBarWidth, height);
+  cairo_fill(context);
   cairo_set_source_rgb(context, 0.3, 0.3, 0.3);
   cairo_set_line_width(context, 0.7);
   cairo_rectangle(context, x, y, kBarWidth, height);

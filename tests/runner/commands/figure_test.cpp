@@ -103,7 +103,7 @@ TEST_F(FigureCommand, WithoutADepthTheLastFrameIsDrawnIntoAFileOfItsKind) {
 
 TEST_F(FigureCommand, AWindowIsWhatIsSeen) {
   const Finished finished =
-      place->run({"figure", "bed", ids["flat"], "--window", "-0.2,0.2,0.1,0.3", "-o", "window.png"});
+      place->run({"figure", "--window", "-0.2,0.2,0.1,0.3", "bed", ids["flat"], "-o", "window.png"});
   EXPECT_EQ(finished.exit_code, 0) << finished.error;
   const Picture picture = picture_from_png(content(place->folder() / "window.png"));
   EXPECT_EQ(place->run({"figure", "bed", ids["flat"], "--window=-0.2,0.2,0,0.6", "-o", "window.png"}).exit_code, 0);
@@ -126,6 +126,7 @@ TEST_F(FigureCommand, WhatCannotBeDrawnEndsWithTwoAndOneLineAndWritesNothing) {
       {{"figure", "bed", flat, "--window", "0,1,2", "-o", "c.svg"}, "--window"},
       {{"figure", "bed", flat, "--window", "1,0,0,1", "-o", "c.svg"}, "x0 < x1"},
       {{"figure", "bed", flat, "--window", "0,nan,0,1", "-o", "c.svg"}, "x0 < x1"},
+      {{"figure", "bed", flat, "--window", "0,1m,0,1", "-o", "c.svg"}, "x0 < x1"},
       {{"figure", "bed", flat, "--window", "0,1,0,0.01", "-o", "c.svg"}, "20 times"},
       {{"figure", "bed", flat, "--window", "7,8,0,1", "-o", "c.svg"}, "nothing of the box"},
       {{"figure", "bed", ids["bed"], "-o", "c.svg"}, "is a bed"},
