@@ -18,6 +18,7 @@ using Call = std::function<int()>;
 void add_run(CLI::App& app, Call& call);
 void add_query(CLI::App& app, Call& call);
 void add_curve(CLI::App& app, Call& call);
+void add_figure(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);

@@ -266,4 +266,12 @@ Frame read_frame(const std::filesystem::path& folder, const Stamp& stamp, std::s
   return frame;
 }
 
+std::vector<double> read_asked_depths(const std::filesystem::path& folder, const Stamp& stamp) {
+  hdf5::FileReader reader(folder / kFrameFiles.front());
+  check_stamp(reader, "grains", stamp);
+  std::vector<double> depths = reader.read<double>("/frames/asked");
+  reader.close();
+  return depths;
+}
+
 }  // namespace seapile::store

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <vector>
 
 #include "runner/store/frame_layout.h"
 #include "runner/store/stamp.h"
@@ -24,6 +25,9 @@ void write_frames(const std::filesystem::path& folder, const Stamp& stamp, const
 
 /// Throws StoreError::damaged when the files are not those of the run.
 simulation::Frame read_frame(const std::filesystem::path& folder, const Stamp& stamp, std::size_t index);
+
+/// The depths that the frames were asked for [m]; of a run with frames. Throws like read_frame().
+std::vector<double> read_asked_depths(const std::filesystem::path& folder, const Stamp& stamp);
 
 /// "/steps/00012" for the name "steps".
 std::string step_path(const char* name, std::size_t index);

@@ -165,4 +165,11 @@ simulation::Frame read_frame(const Path& run_folder, std::size_t index) {
   return read_frame(run_folder, stamp_of(manifest), index);
 }
 
+std::vector<double> asked_depths(const Path& run_folder) {
+  const Manifest manifest = read_manifest(run_folder);
+  if (manifest.frames == 0) return {};
+  intact(run_folder, manifest, kFrameFiles.front());
+  return read_asked_depths(run_folder, stamp_of(manifest));
+}
+
 }  // namespace seapile::store

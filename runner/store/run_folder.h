@@ -146,6 +146,9 @@ simulation::Bed read_bed(const std::filesystem::path& run_folder);
 std::size_t frame_count(const std::filesystem::path& run_folder);
 simulation::Frame read_frame(const std::filesystem::path& run_folder, std::size_t index);
 
+/// The depths [m] that the frames of a complete run were asked for, in their order. Throws StoreError.
+std::vector<double> asked_depths(const std::filesystem::path& run_folder);
+
 /// Writes a small text file by the same seal (temporary name, fsync, rename, directory fsync).
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -33,7 +33,9 @@ const std::vector<Room> kRooms = {
       "solver/simulation/frame.h", "solver/simulation/record.h", "solver/simulation/run.h",
       "solver/simulation/state.h"}},
     {"runner/execute/", {"runner/store/", "runner/study/", "solver/simulation/", "solver/scene/"}},
-    {"runner/present/", {"runner/store/", "solver/simulation/record.h"}},
+    {"runner/present/",
+     {"runner/store/", "solver/base/", "solver/scene/", "solver/pile/pile.h", "solver/simulation/frame.h",
+      "solver/simulation/record.h"}},
     {"runner/commands/", {"runner/present/", "runner/execute/", "runner/store/", "runner/study/"}},
 };
 

@@ -225,7 +225,11 @@ TEST_F(RunStudy, ADamagedCatalogueIsRefusedAndReindexedFromTheFolders) {
 TEST_F(RunStudy, ReadingCommandsWriteNothing) {
   const auto before = everything(place->results());
   for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"query"}, {"curve", "small"}, {"show", id_of("flat")}, {"verify"}}) {
+       {std::vector<std::string>{"query"},
+        {"curve", "small"},
+        {"figure", "bed", id_of("flat")},
+        {"show", id_of("flat")},
+        {"verify"}}) {
     EXPECT_EQ(place->run(command).exit_code, 0) << command[0];
   }
   EXPECT_EQ(everything(place->results()), before);
@@ -333,11 +337,11 @@ TEST(Program, HelpVersionAndUsage) {
   const Workplace place;
   const Finished help = place.run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* word : {"run", "query", "curve", "show", "verify", "reindex", "Examples"}) {
+  for (const char* word : {"run", "query", "curve", "figure", "show", "verify", "reindex", "Examples"}) {
     EXPECT_THAT(help.out, HasSubstr(word));
   }
   EXPECT_THAT(help.out, Not(HasSubstr("exec")));
-  for (const char* command : {"run", "query", "curve", "show", "verify", "reindex"}) {
+  for (const char* command : {"run", "query", "curve", "figure", "show", "verify", "reindex"}) {
     const Finished finished = place.run({command, "--help"});
     EXPECT_EQ(finished.exit_code, 0);
     EXPECT_THAT(finished.out, HasSubstr("Example")) << command;

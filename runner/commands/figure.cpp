@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "runner/commands/command.h"
+#include "runner/execute/exit_codes.h"
+#include "runner/present/frame_drawing.h"
+#include "runner/store/catalogue.h"
+#include "runner/study/study.h"
+
+namespace seapile::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDepthTolerance = 1e-3;  ///< [m] between the depth that is asked for and that of a frame
+
+struct FigureArguments {
+  present::FigureKind kind = present::FigureKind::bed;
+  std::string kind_name;
+  std::string run, second;
+  std::optional<double> depth;
+  std::string window, out, root = "results";
+};
+
+const std::map<std::string, present::FigureKind> kKinds = {{"bed", present::FigureKind::bed},
+                                                           {"forces", present::FigureKind::forces},
+                                                           {"stress", present::FigureKind::stress},
+                                                           {"velocity", present::FigureKind::velocity}};
+
+/// A number, and nothing behind it.
+double number_in(const std::string& text) {
+  std::size_t read = 0;
+  try {
+    const double number = std::stod(text, &read);
+    return read == text.size() ? number : std::nan("");
+  } catch (const std::logic_error&) {
+    return std::nan("");
+  }
+}
+
+std::optional<present::View> view_of(const std::string& window) {
+  if (window.empty()) return std::nullopt;
+  std::vector<double> edges;
+  std::istringstream in(window);
+  for (std::string text; std::getline(in, text, ',');) edges.push_back(number_in(text));
+  const bool is_complete =
+      edges.size() == 4 && std::ranges::all_of(edges, [](double edge) { return std::isfinite(edge); });
+  if (!is_complete || edges[0] >= edges[1] || edges[2] >= edges[3]) {
+    throw UsageError("--window: x0,x1,y0,y1 in metres, with x0 < x1 and y0 < y1");
+  }
+  const present::View view{edges[0], edges[1], edges[2], edges[3]};
+  const double longer = std::max(view.width(), view.height()), shorter = std::min(view.width(), view.height());
+  if (longer > 20 * shorter) throw UsageError("--window: one edge is more than 20 times as long as the other");
+  return view;
+}
+
+/// The frame of a run that was asked for at a depth.
+std::size_t frame_at(double depth, const std::vector<double>& asked, const std::string& id) {
+  const auto distance = [&](double other) { return std::abs(other - depth); };
+  const auto nearest = std::ranges::min_element(asked, {}, distance);
+  if (!(distance(*nearest) <= kDepthTolerance)) {  // so that no depth is near to "not a number"
+    throw UsageError(fmt::format("{} has no frame within 1 mm of {:g} m; its frames are at {:g} m", id, depth,
+                                 fmt::join(asked, ", ")));
+  }
+  return static_cast<std::size_t>(nearest - asked.begin());
+}
+
+double surface_of_bed(const fs::path& root, const store::RunHeader& header) {
+  const auto bed = store::read_manifest(store::case_folder(root, header.bed_id) / header.bed_run);
+  const auto& metrics = bed.result.metrics;
+  const auto found = std::ranges::find(metrics, "surface", &simulation::Metric::name);
+  if (found == metrics.end()) {
+    throw store::StoreError(store::StoreError::Kind::damaged,
+                            fmt::format("the bed {} does not say where its surface is", header.bed_id));
+  }
+  return found->value;
+}
+
+std::string title_of(const store::Catalogue& catalogue, const fs::path& folder, const std::string& id) {
+  for (const auto& [other, labels] : catalogue.runs("", {})) {
+    if (other != folder || labels.empty()) continue;
+    std::vector<std::string> words;
+    for (const auto& [path, value] : labels) words.push_back(path + "=" + value);
+    return fmt::format("{}", fmt::join(words, ", "));
+  }
+  return "case " + id;
+}
+
+/// A run and its frame; without a depth, its last one, whose depth is then the one for the runs that follow.
+present::FrameOfRun load(const store::Catalogue& catalogue, const fs::path& folder, const fs::path& root,
+                         std::optional<double>& depth) {
+  const store::Manifest manifest = store::read_manifest(folder);
+  const std::string id = manifest.header.case_id.substr(0, 10);
+  if (manifest.header.kind != "drive") throw UsageError(fmt::format("{} is a bed: nothing is driven into it", id));
+  const std::vector<double> asked = store::asked_depths(folder);
+  if (asked.empty()) throw UsageError(fmt::format("{} has no frames", id));
+  if (!depth) depth = asked.back();
+  return {title_of(catalogue, folder, id), study::scene_from_json(manifest.header.scene_json),
+          surface_of_bed(root, manifest.header), store::read_frame(folder, frame_at(*depth, asked, id))};
+}
+
+int figure(const FigureArguments& arguments) {
+  const fs::path out = arguments.out.empty() ? arguments.kind_name + ".svg" : arguments.out;
+  const auto format = present::picture_format(out);
+  if (!format) throw UsageError(fmt::format("{}: a picture's name ends in .svg or .png", out.string()));
+  const auto view = view_of(arguments.window);
+
+  const auto catalogue = store::Catalogue::open_read_only(arguments.root);
+  std::vector<std::string> prefixes = {arguments.run};
+  if (!arguments.second.empty()) prefixes.push_back(arguments.second);
+  std::vector<fs::path> folders;
+  for (const std::string& prefix : prefixes) {
+    folders.push_back(usage_checked([&] { return catalogue.find(prefix); }));
+    if (!folders.back().empty()) continue;
+    fmt::print(stderr, "no case has an id that begins with {}\n", prefix);
+    return execute::kNothingMatched;
+  }
+  std::vector<present::FrameOfRun> runs;
+  std::optional<double> depth = arguments.depth;
+  for (const fs::path& folder : folders) runs.push_back(load(catalogue, folder, arguments.root, depth));
+
+  const auto figure = usage_checked([&] { return present::frame_figure(arguments.kind, runs, view); });
+  const std::string bytes = present::picture_of(figure, *format);
+  try {
+    store::write_text(out, bytes);
+  } catch (const store::StoreError& error) {
+    throw UsageError(error.what());
+  }
+  fmt::print("{}\n", out.string());
+  return execute::kDone;
+}
+
+}  // namespace
+
+void add_figure(CLI::App& app, Call& call) {
+  static FigureArguments arguments;
+  CLI::App* command = app.add_subcommand("figure", "Draw a frame of a drive, or of two side by side");
+  command->add_option("KIND", arguments.kind_name, "bed, forces, stress or velocity")
+      ->required()
+      ->type_name("")
+      ->check([](const std::string& word) {
+        return kKinds.contains(word)
+                   ? std::string()
+                   : "there is no figure \"" + word + "\"; there are bed, forces, stress and velocity";
+      });
+  command->add_option("RUN", arguments.run, "Case id, or how it begins")->required()->type_name("");
+  command->add_option("RUN2", arguments.second, "Another one, drawn beside it on the same scales")->type_name("");
+  command->add_option("--depth", arguments.depth, "Depth d of the tip [m]; default: the last frame of the first run");
+  command->add_option("--window", arguments.window, "What is seen [m]; default: see below")->type_name("X0,X1,Y0,Y1");
+  command->add_option("-o,--out", arguments.out, "Picture to write, .svg or .png; default: KIND.svg")
+      ->type_name("FILE");
+  add_store_option(*command, arguments.root);
+  command->footer(
+      "Kinds:\n"
+      "  bed       grains in two tones that change with the height at which they lay before the drive\n"
+      "  forces    a line per contact, as wide as its normal force is large\n"
+      "  stress    an ellipse per cell, its semi-axes the principal stresses, coloured by the major one\n"
+      "  velocity  an arrow per grain, coloured by its speed over the largest speed of the pile\n"
+      "Without --window, bed shows the whole box; the others show 1.2 m by 1.2 m, the tip at a third from the top.\n"
+      "x is 0 in the middle of the box, y is 0 at its base. A frame has to have been asked for within 1 mm of "
+      "--depth.\n"
+      "\n"
+      "Examples:\n"
+      "  runner figure forces 1a2b3c4d5e --depth 0.6 -o forces.svg\n"
+      "  runner figure stress 1a2b3c4d5e 6f7a8b9c0d --depth 0.6 -o stress.png\n"
+      "  runner figure bed 1a2b3c4d5e --window -1,1,0,2.2");
+  command->callback([&call] {
+    call = [] {
+      arguments.kind = kKinds.at(arguments.kind_name);
+      return figure(arguments);
+    };
+  });
+}
+
+}  // namespace seapile::commands
