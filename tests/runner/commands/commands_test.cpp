@@ -64,7 +64,7 @@ TEST_F(RunStudy, EndsWithATableARemarkAndAPicture) {
   EXPECT_THAT(out[3], HasSubstr("conical"));
   EXPECT_THAT(out[3], HasSubstr("completed"));
   EXPECT_THAT(out[4], HasSubstr("flat"));
-  EXPECT_THAT(first->out, HasSubstr("One packing is one packing"));
+  EXPECT_THAT(first->out, HasSubstr("one packing: no interval"));
   EXPECT_EQ(out.back(), "results/figures/small.svg");
   EXPECT_THAT(content(place->results() / "figures" / "small.svg"), HasSubstr("Which tip meets more resistance?"));
 }
@@ -255,7 +255,7 @@ TEST(Run, SetAndSeedsMakeOtherCases) {
   EXPECT_EQ(finished.exit_code, 0) << finished.error;
   const auto rows =
       nlohmann::json::parse(
-          place.run({"query", "small", "--columns", "bed.seed,pile.depth,pile.tip", "--format", "json"}).out)
+          place.run({"query", "small", "--columns", "bed.seed,pile.depth,pile.tip", "--each", "--format", "json"}).out)
           .at("rows");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows.at(0).at("bed.seed"), 1);
@@ -264,7 +264,7 @@ TEST(Run, SetAndSeedsMakeOtherCases) {
     EXPECT_EQ(row.at("pile.depth"), 0.1);
     EXPECT_EQ(row.at("pile.tip"), "flat");
   }
-  EXPECT_THAT(finished.out, Not(HasSubstr("One packing is one packing")));
+  EXPECT_THAT(finished.out, Not(HasSubstr("one packing: no interval")));
 }
 
 TEST(Run, ABadStudyIsRefusedWithEveryProblemAndLeavesNoFolder) {

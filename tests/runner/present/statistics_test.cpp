@@ -245,8 +245,10 @@ TEST(SampleNeeded, IsEnoughAndNoneLessIs) {
     // Of 4000 samples; the standard error of such a share is 0.6 %.
     EXPECT_GT(power(needed, 51), 0.8 - 0.018) << ratio;
     EXPECT_LT(power(needed - 1, 52), 0.8 + 0.018) << ratio;
-    EXPECT_GE(equivalence_power(1, ratio / std::sqrt(needed), static_cast<double>(needed) - 1), 0.8);
-    EXPECT_LT(equivalence_power(1, ratio / std::sqrt(needed - 1.0), static_cast<double>(needed) - 2), 0.8);
+    EXPECT_GE(equivalence_power(1, ratio / std::sqrt(static_cast<double>(needed)), static_cast<double>(needed) - 1),
+              0.8);
+    EXPECT_LT(equivalence_power(1, ratio / std::sqrt(static_cast<double>(needed - 1)), static_cast<double>(needed) - 2),
+              0.8);
   }
 }
 
