@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 constexpr int kWidth = 760, kHeight = 960, kTitleLine = 25, kNoteLine = 22, kSide = 28;
 constexpr std::size_t kTitleCharacters = 66, kMostTitleLines = 3;
 
+constexpr std::string_view kBandAlpha = "c4";  // nearly transparent: two bands may lie over each other
+
 constexpr std::size_t kMostPoints = 2400;  // of one faint line: about three per pixel of its height
 
 /// At most kMostPoints points of a curve: of every stretch, its lowest and its highest value, in their order.
@@ -55,6 +57,28 @@ std::string data_block(const std::string& name, const std::vector<std::pair<doub
     resistance.push_back(q);
   }
   return data_block(name, depth, resistance);
+}
+
+/// The outline of the interval, down along its low ends and up along its high ones.
+std::string band_block(const std::string& name, const std::vector<BandPoint>& band) {
+  std::vector<std::pair<double, double>> outline;
+  for (const BandPoint& point : band) outline.emplace_back(point.depth, point.mean.low);
+  for (auto point = band.rbegin(); point != band.rend(); ++point) outline.emplace_back(point->depth, point->mean.high);
+  return data_block(name, outline);
+}
+
+/// "mean of 5 packings, 95 % band"; empty when no group has several.
+std::string band_title(const Figure& figure) {
+  std::size_t least = 0, most = 0;
+  for (const CurveGroup& group : figure.groups) {
+    const std::size_t n = group.packings.size();
+    if (n < 2) continue;
+    most = std::max(most, n);
+    least = least > 0 ? std::min(least, n) : n;
+  }
+  if (most == 0) return "";
+  const std::string count = least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+  return fmt::format("mean of {} packings, {:g} % band", count, 100 * kLevel);
 }
 
 /// What the two kinds of line are.
@@ -135,21 +159,16 @@ std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve) {
   return means;
 }
 
-std::vector<std::pair<double, double>> mean_of_packings(const CurveGroup& group) {
-  std::map<double, std::pair<double, std::size_t>> sums;
+std::vector<BandPoint> band_of_packings(const CurveGroup& group, double level) {
+  std::map<double, std::vector<double>> values;
   for (const ResistanceCurve& packing : group.packings) {
-    for (const auto& [depth, value] : bin_means(packing)) {
-      sums[depth].first += value;
-      ++sums[depth].second;
-    }
+    for (const auto& [depth, value] : bin_means(packing)) values[depth].push_back(value);
   }
-  std::vector<std::pair<double, double>> means;
-  for (const auto& [depth, sum] : sums) {
-    if (sum.second == group.packings.size()) {
-      means.emplace_back(depth, sum.first / static_cast<double>(sum.second));
-    }
+  std::vector<BandPoint> band;
+  for (const auto& [depth, of_packings] : values) {
+    if (of_packings.size() == group.packings.size()) band.push_back({depth, mean_interval(of_packings, level)});
   }
-  return means;
+  return band;
 }
 
 std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
@@ -171,8 +190,8 @@ std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
       kWidth, kHeight, quoted(svg.string()));
   script += frame_of(figure, deepest, lowest < -0.02 * highest);
 
-  // Faint lines first, so that no strong line lies under one of them.
-  std::string blocks, faint, strong;
+  // Bands and faint lines first, so that no strong line lies under one of them.
+  std::string blocks, bands, faint, strong;
   for (std::size_t g = 0; g < figure.groups.size(); ++g) {
     const CurveGroup& group = figure.groups[g];
     const auto [colour, dash] = style_of(g);
@@ -188,16 +207,30 @@ std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
       faint += fmt::format("  ${} using 1:2 axes x2y1 with lines lw {} lc rgb '#{}{}' notitle, \\\n", name,
                            replicated ? 1.2 : 0.8, replicated ? "80" : "a8", colour);
     }
+    const std::vector<BandPoint> band = band_of_packings(group);
+    if (replicated && band.size() > 1) {
+      const std::string name = fmt::format("band_{}", g);
+      blocks += band_block(name, band);
+      bands += fmt::format(
+          "  ${} using 1:2 axes x2y1 with filledcurves closed fs solid noborder fc rgb '#{}{}' notitle, \\\n", name,
+          kBandAlpha, colour);
+    }
     const std::string name = fmt::format("strong_{}", g);
-    blocks += data_block(name, mean_of_packings(group));
+    std::vector<std::pair<double, double>> means;
+    for (const BandPoint& point : band) means.emplace_back(point.depth, point.mean.mean);
+    blocks += data_block(name, means);
     // A white edge keeps crossing lines apart.
     strong += fmt::format("  ${} using 1:2 axes x2y1 with lines lw 5.5 lc rgb '#40ffffff' notitle, \\\n", name);
     const std::string title = group.label.empty() ? "notitle" : "title " + quoted(group.label);
     strong +=
         fmt::format("  ${} using 1:2 axes x2y1 with lines lw 3 dt {} lc rgb '#{}' {}, \\\n", name, dash, colour, title);
   }
+  if (!bands.empty()) {
+    strong += fmt::format("  keyentry with filledcurves fs solid noborder fc rgb '#{}444444' title {}, \\\n",
+                          kBandAlpha, quoted(band_title(figure)));
+  }
   // The last curve is never seen; it saves the list above from a special last line.
-  return script + blocks + "plot \\\n" + faint + strong + "  NaN axes x2y1 notitle\nset output\n";
+  return script + blocks + "plot \\\n" + bands + faint + strong + "  NaN axes x2y1 notitle\nset output\n";
 }
 
 void draw(const Figure& figure, const fs::path& svg) {
