@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "runner/present/gnuplot.h"
+#include "runner/store/run_folder.h"
 
 namespace seapile::present {
 namespace {
@@ -132,6 +133,15 @@ std::string frame_of(const Figure& figure, double deepest, bool tension) {
 }
 
 }  // namespace
+
+ResistanceCurve read_resistance(const fs::path& run_folder) {
+  ResistanceCurve curve;
+  for (const simulation::Record& record : store::read_series(run_folder)) {
+    curve.depth.push_back(record.depth);
+    curve.resistance.push_back(record.tip_resistance);
+  }
+  return curve;
+}
 
 std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve) {
   struct Bin {

@@ -16,6 +16,9 @@ struct ResistanceCurve {
   std::vector<double> resistance;
 };
 
+/// The curve of a drive's run. Throws store::StoreError when its series cannot be read.
+ResistanceCurve read_resistance(const std::filesystem::path& run_folder);
+
 /// Runs that differ by their packing alone; they share a colour and a line in the legend.
 struct CurveGroup {
   std::string label;

@@ -77,15 +77,10 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
     const store::Manifest manifest = store::read_manifest(result.run_folder);
     const bool drawn = manifest.header.kind == "drive" && manifest.result.outcome == simulation::Outcome::completed;
     if (!drawn) continue;
-    ResistanceCurve curve;
-    for (const simulation::Record& record : store::read_series(result.run_folder)) {
-      curve.depth.push_back(record.depth);
-      curve.resistance.push_back(record.tip_resistance);
-    }
     const std::string label = label_without_seed(result.labels);
     auto group = std::ranges::find(figure.groups, label, &CurveGroup::label);
     if (group == figure.groups.end()) group = figure.groups.insert(figure.groups.end(), CurveGroup{label, {}});
-    group->packings.push_back(std::move(curve));
+    group->packings.push_back(read_resistance(result.run_folder));
   }
   return figure;
 }
