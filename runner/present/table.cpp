@@ -54,14 +54,6 @@ std::string number(double value, double most) {
   return fmt::format("{:.{}f}", value, std::clamp(4 - digits_before, 0, 6));
 }
 
-/// The factor that values up to `most` are shown with; their unit gets its prefix.
-double prefixed(std::string& unit, double most) {
-  if (unit != "Pa" && unit != "N/m" && unit != "J/m" && unit != "Pa/m") return 1;
-  if (most < 1e3) return 1;
-  unit = (most >= 1e6 ? "M" : "k") + unit;
-  return most >= 1e6 ? 1e-6 : 1e-3;
-}
-
 Column as_text(const Table& table, std::size_t index) {
   Column column{printable(table.columns[index]), table.units[index], {}, false};
   double most = largest(table, index);
@@ -199,6 +191,13 @@ std::string to_json(const Table& table) {
 }
 
 }  // namespace
+
+double prefixed(std::string& unit, double most) {
+  if (unit != "Pa" && unit != "N/m" && unit != "J/m" && unit != "Pa/m") return 1;
+  if (most < 1e3) return 1;
+  unit = (most >= 1e6 ? "M" : "k") + unit;
+  return most >= 1e6 ? 1e-6 : 1e-3;
+}
 
 std::string text(const Table& table, Format format, const std::vector<std::size_t>& means) {
   switch (format) {

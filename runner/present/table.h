@@ -21,6 +21,9 @@ enum class Format {
 /// the mean, or the value alone where there is no interval.
 std::string text(const store::Table& table, Format format, const std::vector<std::size_t>& means = {});
 
+/// The factor that values of a unit are shown with when the largest is `most`; the unit gets its prefix ("kPa").
+double prefixed(std::string& unit, double most);
+
 /// What is said before rows that tell cases apart: one column per label.
 using Labels = std::vector<std::pair<std::string, std::string>>;
 

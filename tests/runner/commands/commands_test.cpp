@@ -333,11 +333,11 @@ TEST(Program, HelpVersionAndUsage) {
   const Workplace place;
   const Finished help = place.run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* word : {"run", "query", "curve", "show", "verify", "reindex", "Examples"}) {
+  for (const char* word : {"run", "query", "curve", "trend", "show", "verify", "reindex", "Examples"}) {
     EXPECT_THAT(help.out, HasSubstr(word));
   }
   EXPECT_THAT(help.out, Not(HasSubstr("exec")));
-  for (const char* command : {"run", "query", "curve", "show", "verify", "reindex"}) {
+  for (const char* command : {"run", "query", "curve", "trend", "show", "verify", "reindex"}) {
     const Finished finished = place.run({command, "--help"});
     EXPECT_EQ(finished.exit_code, 0);
     EXPECT_THAT(finished.out, HasSubstr("Example")) << command;

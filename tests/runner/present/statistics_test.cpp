@@ -70,6 +70,13 @@ TEST(MeanInterval, OneValueHasNoneAndNoneHasNoMean) {
   EXPECT_TRUE(std::isnan(mean_interval(Values{}).mean));
 }
 
+TEST(MeanInterval, OfEqualValuesHasNoWidth) {
+  const Interval found = mean_interval(Values(8, 0.4));
+  EXPECT_EQ(found.mean, 0.4);
+  EXPECT_EQ(found.low, 0.4);
+  EXPECT_EQ(found.high, 0.4);
+}
+
 TEST(MeanInterval, CoversTheTrueMeanInNineteenOfTwentySamples) {
   for (const std::size_t n : {2u, 3u, 5u, 8u}) {
     const double covered = share([&](std::uint64_t sample) {
