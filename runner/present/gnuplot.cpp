@@ -104,6 +104,8 @@ void draw_with_gnuplot(const std::function<std::string(const std::string&)>& scr
   // gnuplot gets a plain name in the picture's own folder, whatever that folder is called.
   std::error_code error;
   fs::create_directories(svg.parent_path(), error);
+  // Else gnuplot would start, and write, in the folder of its caller.
+  if (error || !fs::is_directory(svg.parent_path())) fail(error ? error.message() : "its folder is none");
   const std::string temporary = fmt::format(".figure-{}.tmp", ::getpid());
   const fs::path written = svg.parent_path() / temporary;
   std::string complaint;

@@ -161,7 +161,12 @@ TEST_F(FigureTest, TwelveCasesHaveTwelveLooks) {
 
 TEST_F(FigureTest, AFolderThatCannotBeWrittenIsAnErrorInWords) {
   std::ofstream(folder / "file") << "in the way";
+  const fs::path before = fs::current_path(), apart = folder / "apart";
+  fs::create_directories(apart);
+  fs::current_path(apart);
   EXPECT_THROW(draw({"", {{"", {ramp(0.2)}}}}, folder / "file" / "a.svg"), store::StoreError);
+  fs::current_path(before);
+  EXPECT_TRUE(fs::is_empty(apart)) << "something was written where the program was started";
 }
 
 }  // namespace

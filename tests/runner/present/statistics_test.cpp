@@ -241,6 +241,19 @@ TEST(EquivalencePower, GivesThePublishedSampleSizes) {
   }
 }
 
+TEST(EquivalencePower, IsTheShareOfSamplesThatAreCalledEquivalent) {
+  for (const std::size_t n : {3u, 5u, 12u}) {
+    for (const double ratio : {0.3, 0.6, 1.2}) {
+      const double called = share([&](std::uint64_t sample) {
+        const Values values = normal_values(n, 0, ratio, static_cast<std::uint32_t>(60 + n), sample);
+        return equivalence(mean_of(values), 1).verdict == Verdict::equivalent;
+      });
+      const auto count = static_cast<double>(n);
+      EXPECT_NEAR(equivalence_power(1, ratio / std::sqrt(count), count - 1), called, 0.025) << n << " " << ratio;
+    }
+  }
+}
+
 TEST(SampleNeeded, IsEnoughAndNoneLessIs) {
   for (const double ratio : {0.5, 1.0, 2.0}) {
     const std::size_t needed = sample_needed(ratio, 1);
