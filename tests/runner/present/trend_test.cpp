@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -201,6 +202,22 @@ TEST_F(TrendFigure, BarsReachFromEndToEnd) {
   };
   EXPECT_THAT(script, HasSubstr("\n" + shown(x.mean) + " " + shown(y.mean / 1000) + " " + shown(x.low) + " " +
                                 shown(x.high) + " " + shown(y.low / 1000) + " " + shown(y.high / 1000) + "\n"));
+}
+
+TEST_F(TrendFigure, ALineGoesThroughItsCasesByRisingAbscissa) {
+  Table each = answer();
+  std::ranges::reverse(each.rows);  // the denser bed first
+  const std::string script = gnuplot_script("", trend(each, kQuestion), "a.svg");
+  for (const std::string block : {"$mean_left_0 << END\n", "$mean_left_1 << END\n", "$mean_right_1 << END\n"}) {
+    const auto at = script.find(block);
+    ASSERT_NE(at, std::string::npos) << block;
+    std::istringstream lines(script.substr(at + block.size()));
+    double first = 0, second = 0;
+    std::string rest;
+    lines >> first, std::getline(lines, rest), lines >> second;
+    EXPECT_NEAR(first, 0.802, 1e-6) << block;
+    EXPECT_NEAR(second, 0.822, 1e-6) << block;
+  }
 }
 
 TEST_F(TrendFigure, NoTextIsRunAsACommand) {
