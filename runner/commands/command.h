@@ -19,6 +19,7 @@ void add_run(CLI::App& app, Call& call);
 void add_query(CLI::App& app, Call& call);
 void add_curve(CLI::App& app, Call& call);
 void add_figure(CLI::App& app, Call& call);
+void add_trend(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);
@@ -35,7 +36,7 @@ void add_store_option(CLI::App& command, std::string& root);
 /// Adds `--where`, conditions that all have to hold.
 void add_where_option(CLI::App& command, std::vector<std::string>& where);
 
-/// What `query` and `curve` are limited to: the name of a study, or a study file, or "" for everything.
+/// What `query`, `curve` and `trend` are limited to: the name of a study, or a study file, or "" for everything.
 std::string study_name(const std::string& study);
 
 /// Whether the catalogue knows the study ("": it need not); if not, says so on standard error.

@@ -50,9 +50,7 @@ int run(const RunArguments& arguments) {
   for (const execute::CaseOutcome& outcome : campaign.outcomes()) {
     results.push_back({outcome.case_id, outcome.labels, outcome.word, outcome.run_folder, outcome.bed_folder});
   }
-  fmt::print("{}", present::text(present::summary(results), present::Format::table));
-  const std::string remark = present::packing_remark(results);
-  if (!remark.empty()) fmt::print("\n{}\n", remark);
+  fmt::print("{}", present::closing_text(results));
   draw(study, results, arguments.campaign.root);
   return code;
 }

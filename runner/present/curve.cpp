@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include "runner/present/figure.h"
+#include "runner/present/replicates.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::present {
@@ -51,6 +54,36 @@ void write_curves(const std::vector<CurveSource>& sources, std::FILE* out) {
     }
     write(out, lines);
   }
+  if (std::fflush(out) != 0) write(out, "");
+}
+
+void write_bands(const std::vector<CurveSource>& sources, std::FILE* out, double level) {
+  std::vector<Labels> cases;
+  std::vector<CurveGroup> groups;
+  for (const CurveSource& source : sources) {
+    Labels labels = source.labels;
+    std::erase_if(labels, [](const auto& label) { return label.first == kSeed; });
+    const auto found = static_cast<std::size_t>(std::ranges::find(cases, labels) - cases.begin());
+    if (found == cases.size()) {
+      cases.push_back(std::move(labels));
+      groups.emplace_back();
+    }
+    groups[found].packings.push_back(read_resistance(source.run_folder));
+  }
+  const store::Table parameters = label_table(cases);
+  std::string text;
+  for (std::size_t i = 0; i < parameters.columns.size(); ++i) {
+    text += csv_heading(parameters.columns[i], parameters.units[i]) + ",";
+  }
+  text += "depth[m],n,mean[Pa],low[Pa],high[Pa]\n";
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    for (const auto& [depth, mean] : band_of_packings(groups[k], level)) {
+      for (const store::Cell& cell : parameters.rows[k]) text += cell_text(cell) + ",";
+      text += fmt::format("{:.6g},{},{}", depth, mean.n, mean.mean);
+      text += mean.n > 1 ? fmt::format(",{},{}\n", mean.low, mean.high) : ",,\n";
+    }
+  }
+  write(out, text);
   if (std::fflush(out) != 0) write(out, "");
 }
 

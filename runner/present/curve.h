@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "runner/present/statistics.h"
 #include "runner/present/table.h"
 #include "solver/simulation/record.h"
 
@@ -20,5 +22,10 @@ struct CurveSource {
 /// Writes CSV: "case", "run", the labels, then every column of the record, units in the header. One run is in memory at
 /// a time. Throws store::StoreError when a series cannot be read or the file not be written.
 void write_curves(const std::vector<CurveSource>& sources, std::FILE* out);
+
+/// Writes CSV: a row per case, the seed apart, and bin of depth (kBinWidth) that all its packings have. Columns: the
+/// labels, "depth[m]" (the middle of the bin), "n", "mean[Pa]", "low[Pa]", "high[Pa]": tip resistance and the interval
+/// of its mean, empty for one packing. `sources`: completed drives. Throws as write_curves() does.
+void write_bands(const std::vector<CurveSource>& sources, std::FILE* out, double level = kLevel);
 
 }  // namespace seapile::present

@@ -1,22 +1,13 @@
 #include "runner/present/figure.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <boost/process/args.hpp>
-#include <boost/process/child.hpp>
-#include <boost/process/exe.hpp>
-#include <boost/process/io.hpp>
-#include <boost/process/pipe.hpp>
-#include <boost/process/search_path.hpp>
-#include <boost/process/start_dir.hpp>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string_view>
-#include <system_error>
 
+#include "runner/present/gnuplot.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::present {
@@ -28,56 +19,9 @@ namespace fs = std::filesystem;
 constexpr int kWidth = 760, kHeight = 960, kTitleLine = 25, kNoteLine = 22, kSide = 28;
 constexpr std::size_t kTitleCharacters = 66, kMostTitleLines = 3;
 
+constexpr std::string_view kBandAlpha = "c4";  // nearly transparent: two bands may lie over each other
+
 constexpr std::size_t kMostPoints = 2400;  // of one faint line: about three per pixel of its height
-
-// Okabe and Ito's colours, told apart by colour-blind readers; their yellow is too pale for a line on white.
-constexpr std::string_view kColours[] = {"0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "444444"};
-constexpr std::size_t kColourCount = std::size(kColours);
-constexpr std::string_view kDashes[] = {"solid", "(12,5)", "(3,4)"};
-
-/// A gnuplot string. What could end it, run a command or name a macro is written by its octal code.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) {
-      result += ' ';
-    } else if (std::string_view("\"\\`'$@").find(c) != std::string_view::npos) {
-      result += fmt::format("\\{:03o}", byte);
-    } else {
-      result += c;
-    }
-  }
-  return result + "\"";
-}
-
-/// Lines of at most `most` characters, broken at spaces.
-std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
-  const auto length = [](const std::string& s) {
-    return static_cast<std::size_t>(std::ranges::count_if(s, [](char c) { return (c & 0xC0) != 0x80; }));
-  };
-  std::vector<std::string> lines;
-  std::string line, word;
-  const auto take = [&] {
-    if (word.empty()) return;
-    if (!line.empty() && length(line) + 1 + length(word) > most) {
-      lines.push_back(line);
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-    word.clear();
-  };
-  for (const char c : text) {
-    if (c == ' ' || c == '\n' || c == '\t') {
-      take();
-    } else {
-      word += c;
-    }
-  }
-  take();
-  if (!line.empty()) lines.push_back(line);
-  return lines;
-}
 
 /// At most kMostPoints points of a curve: of every stretch, its lowest and its highest value, in their order.
 ResistanceCurve thinned(const ResistanceCurve& curve) {
@@ -114,6 +58,28 @@ std::string data_block(const std::string& name, const std::vector<std::pair<doub
     resistance.push_back(q);
   }
   return data_block(name, depth, resistance);
+}
+
+/// The outline of the interval, down along its low ends and up along its high ones.
+std::string band_block(const std::string& name, const std::vector<BandPoint>& band) {
+  std::vector<std::pair<double, double>> outline;
+  for (const BandPoint& point : band) outline.emplace_back(point.depth, point.mean.low);
+  for (auto point = band.rbegin(); point != band.rend(); ++point) outline.emplace_back(point->depth, point->mean.high);
+  return data_block(name, outline);
+}
+
+/// "mean of 5 packings, 95 % band"; empty when no group has several.
+std::string band_title(const Figure& figure) {
+  std::size_t least = 0, most = 0;
+  for (const CurveGroup& group : figure.groups) {
+    const std::size_t n = group.packings.size();
+    if (n < 2) continue;
+    most = std::max(most, n);
+    least = least > 0 ? std::min(least, n) : n;
+  }
+  if (most == 0) return "";
+  const std::string count = least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+  return fmt::format("mean of {} packings, {:g} % band", count, 100 * kLevel);
 }
 
 /// What the two kinds of line are.
@@ -166,34 +132,16 @@ std::string frame_of(const Figure& figure, double deepest, bool tension) {
   return script;
 }
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-}
-
-/// gnuplot's SVG with what it cannot be told: bold as a weight, fonts to fall back to, spaces beside symbols,
-/// no pop-up names of its own.
-std::string finished(std::string svg) {
-  replace_all(svg, R"(font-family="Helvetica:Bold")", R"(font-weight="bold" font-family="Helvetica")");
-  replace_all(svg, R"(font-family="Helvetica")", R"(font-family="Helvetica, Arial, 'Liberation Sans', sans-serif")");
-  replace_all(svg, "<text>", R"(<text xml:space="preserve">)");
-  for (std::size_t at = 0; (at = svg.find("<title>", at)) != std::string::npos;) {
-    svg.erase(at, svg.find("</title>", at) + std::string_view("</title>").size() - at);
-  }
-  return svg;
-}
-
-struct Style {
-  std::string_view colour;
-  std::string_view dash;
-};
-
-Style style_of(std::size_t group) {
-  return {kColours[group % kColourCount], kDashes[std::min(group / kColourCount, std::size(kDashes) - 1)]};
-}
-
 }  // namespace
+
+ResistanceCurve read_resistance(const fs::path& run_folder) {
+  ResistanceCurve curve;
+  for (const simulation::Record& record : store::read_series(run_folder)) {
+    curve.depth.push_back(record.depth);
+    curve.resistance.push_back(record.tip_resistance);
+  }
+  return curve;
+}
 
 std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve) {
   struct Bin {
@@ -221,21 +169,16 @@ std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve) {
   return means;
 }
 
-std::vector<std::pair<double, double>> mean_of_packings(const CurveGroup& group) {
-  std::map<double, std::pair<double, std::size_t>> sums;
+std::vector<BandPoint> band_of_packings(const CurveGroup& group, double level) {
+  std::map<double, std::vector<double>> values;
   for (const ResistanceCurve& packing : group.packings) {
-    for (const auto& [depth, value] : bin_means(packing)) {
-      sums[depth].first += value;
-      ++sums[depth].second;
-    }
+    for (const auto& [depth, value] : bin_means(packing)) values[depth].push_back(value);
   }
-  std::vector<std::pair<double, double>> means;
-  for (const auto& [depth, sum] : sums) {
-    if (sum.second == group.packings.size()) {
-      means.emplace_back(depth, sum.first / static_cast<double>(sum.second));
-    }
+  std::vector<BandPoint> band;
+  for (const auto& [depth, of_packings] : values) {
+    if (of_packings.size() == group.packings.size()) band.push_back({depth, mean_interval(of_packings, level)});
   }
-  return means;
+  return band;
 }
 
 std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
@@ -257,8 +200,8 @@ std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
       kWidth, kHeight, quoted(svg.string()));
   script += frame_of(figure, deepest, lowest < -0.02 * highest);
 
-  // Faint lines first, so that no strong line lies under one of them.
-  std::string blocks, faint, strong;
+  // Bands and faint lines first, so that no strong line lies under one of them.
+  std::string blocks, bands, faint, strong;
   for (std::size_t g = 0; g < figure.groups.size(); ++g) {
     const CurveGroup& group = figure.groups[g];
     const auto [colour, dash] = style_of(g);
@@ -274,55 +217,34 @@ std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
       faint += fmt::format("  ${} using 1:2 axes x2y1 with lines lw {} lc rgb '#{}{}' notitle, \\\n", name,
                            replicated ? 1.2 : 0.8, replicated ? "80" : "a8", colour);
     }
+    const std::vector<BandPoint> band = band_of_packings(group);
+    if (replicated && band.size() > 1) {
+      const std::string name = fmt::format("band_{}", g);
+      blocks += band_block(name, band);
+      bands += fmt::format(
+          "  ${} using 1:2 axes x2y1 with filledcurves closed fs solid noborder fc rgb '#{}{}' notitle, \\\n", name,
+          kBandAlpha, colour);
+    }
     const std::string name = fmt::format("strong_{}", g);
-    blocks += data_block(name, mean_of_packings(group));
+    std::vector<std::pair<double, double>> means;
+    for (const BandPoint& point : band) means.emplace_back(point.depth, point.mean.mean);
+    blocks += data_block(name, means);
     // A white edge keeps crossing lines apart.
     strong += fmt::format("  ${} using 1:2 axes x2y1 with lines lw 5.5 lc rgb '#40ffffff' notitle, \\\n", name);
     const std::string title = group.label.empty() ? "notitle" : "title " + quoted(group.label);
     strong +=
         fmt::format("  ${} using 1:2 axes x2y1 with lines lw 3 dt {} lc rgb '#{}' {}, \\\n", name, dash, colour, title);
   }
+  if (!bands.empty()) {
+    strong += fmt::format("  keyentry with filledcurves fs solid noborder fc rgb '#{}444444' title {}, \\\n",
+                          kBandAlpha, quoted(band_title(figure)));
+  }
   // The last curve is never seen; it saves the list above from a special last line.
-  return script + blocks + "plot \\\n" + faint + strong + "  NaN axes x2y1 notitle\nset output\n";
+  return script + blocks + "plot \\\n" + bands + faint + strong + "  NaN axes x2y1 notitle\nset output\n";
 }
 
 void draw(const Figure& figure, const fs::path& svg) {
-  namespace bp = boost::process;
-  const auto fail = [&](const std::string& why) {
-    throw store::StoreError(store::StoreError::Kind::io, fmt::format("{} was not drawn: {}", svg.string(), why));
-  };
-  const auto gnuplot = bp::search_path("gnuplot");
-  if (gnuplot.empty()) fail("gnuplot is not installed");
-
-  // gnuplot gets a plain name in the picture's own folder, whatever that folder is called.
-  std::error_code error;
-  fs::create_directories(svg.parent_path(), error);
-  const std::string temporary = fmt::format(".figure-{}.tmp", ::getpid());
-  const fs::path written = svg.parent_path() / temporary;
-  std::string complaint;
-  int code = 0;
-  try {
-    bp::opstream input;
-    bp::ipstream output;
-    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::start_dir = svg.parent_path().string(),
-                    bp::std_in<input, bp::std_out> bp::null, bp::std_err > output);
-    input << gnuplot_script(figure, temporary) << std::flush;
-    input.pipe().close();
-    for (std::string line; std::getline(output, line);) {
-      if (complaint.empty() && line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
-    }
-    child.wait();
-    code = child.exit_code();
-  } catch (const std::system_error& failure) {
-    complaint = failure.what();
-    code = -1;
-  }
-  std::ifstream in(written);
-  std::string picture{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const bool whole = picture.find("</svg>") != std::string::npos;
-  fs::remove(written, error);
-  if (code != 0 || !whole) fail(complaint.empty() ? fmt::format("gnuplot ended with code {}", code) : complaint);
-  store::write_text(svg, finished(std::move(picture)));
+  draw_with_gnuplot([&](const std::string& name) { return gnuplot_script(figure, name); }, svg);
 }
 
 }  // namespace seapile::present

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "runner/present/statistics.h"
+
 namespace seapile::present {
 
 /// One run: q_c [Pa] at depth d [m], in the order of the records.
@@ -13,6 +15,9 @@ struct ResistanceCurve {
   std::vector<double> depth;
   std::vector<double> resistance;
 };
+
+/// The curve of a drive's run. Throws store::StoreError when its series cannot be read.
+ResistanceCurve read_resistance(const std::filesystem::path& run_folder);
 
 /// Runs that differ by their packing alone; they share a colour and a line in the legend.
 struct CurveGroup {
@@ -33,8 +38,14 @@ inline constexpr std::size_t kMostFaint = 4;  ///< groups; of more, the means al
 /// out.
 std::vector<std::pair<double, double>> bin_means(const ResistanceCurve& curve);
 
-/// Mean of the packings' bin means, over the bins that all of them have.
-std::vector<std::pair<double, double>> mean_of_packings(const CurveGroup& group);
+/// A bin of depth: its middle [m] and the mean of the packings' bin means [Pa].
+struct BandPoint {
+  double depth = 0;
+  Interval mean;
+};
+
+/// Mean of the packings' bin means with its interval, over the bins that all of them have.
+std::vector<BandPoint> band_of_packings(const CurveGroup& group, double level = kLevel);
 
 /// Input for gnuplot that draws the figure into `svg`.
 std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg);

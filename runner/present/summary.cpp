@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "runner/store/run_folder.h"
 
@@ -12,7 +13,8 @@ namespace {
 
 using store::Cell;
 
-constexpr const char* kSeed = "bed.seed";
+/// The columns of summary() that are means over packings when there are several.
+constexpr std::string_view kMetricColumns[] = {"solid fraction", "mean q_c", "fluctuation", "max overlap"};
 
 /// What makes packings of the same case differ is left out.
 std::string label_without_seed(const Labels& labels) {
@@ -34,23 +36,6 @@ Cell metric(const std::optional<store::Manifest>& manifest, const std::string& n
 
 std::optional<store::Manifest> manifest_of(const std::filesystem::path& run_folder) {
   return run_folder.empty() ? std::nullopt : std::optional(store::read_manifest(run_folder));
-}
-
-/// How many packings each case was computed for, the seed apart: least and most.
-std::pair<std::size_t, std::size_t> packings(const std::vector<CaseResult>& cases) {
-  std::vector<std::pair<std::string, std::size_t>> counts;
-  for (const CaseResult& result : cases) {
-    const std::string label = label_without_seed(result.labels);
-    const auto found = std::ranges::find(counts, label, &std::pair<std::string, std::size_t>::first);
-    if (found == counts.end()) {
-      counts.emplace_back(label, 1);
-    } else {
-      ++found->second;
-    }
-  }
-  if (counts.empty()) return {0, 0};
-  const auto [least, most] = std::ranges::minmax_element(counts, {}, &std::pair<std::string, std::size_t>::second);
-  return {least->second, most->second};
 }
 
 }  // namespace
@@ -92,27 +77,29 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
     const store::Manifest manifest = store::read_manifest(result.run_folder);
     const bool drawn = manifest.header.kind == "drive" && manifest.result.outcome == simulation::Outcome::completed;
     if (!drawn) continue;
-    ResistanceCurve curve;
-    for (const simulation::Record& record : store::read_series(result.run_folder)) {
-      curve.depth.push_back(record.depth);
-      curve.resistance.push_back(record.tip_resistance);
-    }
     const std::string label = label_without_seed(result.labels);
     auto group = std::ranges::find(figure.groups, label, &CurveGroup::label);
     if (group == figure.groups.end()) group = figure.groups.insert(figure.groups.end(), CurveGroup{label, {}});
-    group->packings.push_back(std::move(curve));
+    group->packings.push_back(read_resistance(result.run_folder));
   }
   return figure;
 }
 
-std::string packing_remark(const std::vector<CaseResult>& cases) {
-  const auto [least, most] = packings(cases);
-  if (most == 1) {
-    return "One packing is one packing: another one of the same preparation moves the mean by a few per cent. "
-           "`--seeds N` repeats every case on N packings.";
+std::string closing_text(const std::vector<CaseResult>& cases) {
+  const store::Table each = summary(cases);
+  std::vector<Role> roles;
+  for (const std::string& column : each.columns) {
+    const bool is_metric = std::ranges::find(kMetricColumns, column) != std::end(kMetricColumns);
+    roles.push_back(column == "case" || column == kSeed ? Role::dropped
+                    : column == "outcome"               ? Role::outcome
+                    : column == "CPU"                   ? Role::total
+                    : is_metric                         ? Role::mean
+                                                        : Role::key);
   }
-  if (least == 1) return "Some cases were computed for one packing only.";
-  return "";
+  const bool replicated = std::ranges::any_of(each.columns, [](const auto& column) { return column == kSeed; });
+  if (!replicated) return text(each, Format::table) + "\n" + kOnePacking + "\n";
+  const Grouped grouped = group(each, roles);
+  return text(grouped.table, Format::table, grouped.means) + "\n" + remark(grouped, Format::table);
 }
 
 }  // namespace seapile::present

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runner/present/figure.h"
+#include "runner/present/replicates.h"
 #include "runner/present/table.h"
 #include "runner/store/catalogue.h"
 
@@ -26,7 +27,8 @@ store::Table summary(const std::vector<CaseResult>& cases);
 /// The completed drives as a figure, packings of the same case together. Throws store::StoreError.
 Figure resistance_figure(const std::string& title, const std::vector<CaseResult>& cases);
 
-/// How far the numbers carry: whether each case was computed for one packing of grains only. Empty when for several.
-std::string packing_remark(const std::vector<CaseResult>& cases);
+/// The table that a study ends with, and how far its numbers carry: case by case, or, when the cases have replicates,
+/// packings put together. Throws store::StoreError.
+std::string closing_text(const std::vector<CaseResult>& cases);
 
 }  // namespace seapile::present

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace seapile::present {
@@ -55,19 +56,9 @@ std::string number(double value, double most) {
 
 Column as_text(const Table& table, std::size_t index) {
   Column column{printable(table.columns[index]), table.units[index], {}, false};
-  double most = largest(table, index), scale = 1;
-  if (column.unit == "Pa" || column.unit == "N/m" || column.unit == "J/m") {
-    const auto use = [&](double factor, const char* prefix) {
-      scale = factor;
-      column.unit = prefix + column.unit;
-    };
-    if (most >= 1e6) {
-      use(1e-6, "M");
-    } else if (most >= 1e3) {
-      use(1e-3, "k");
-    }
-    most *= scale;
-  }
+  double most = largest(table, index);
+  const double scale = prefixed(column.unit, most);
+  most *= scale;
   column.numbers = most > 0;
   for (const auto& row : table.rows) {
     if (const auto* value = std::get_if<double>(&row[index])) {
@@ -82,18 +73,62 @@ Column as_text(const Table& table, std::size_t index) {
   return column;
 }
 
+/// Decimals with which a half-width has two significant digits.
+int decimals(double half) { return 1 - static_cast<int>(std::floor(std::log10(half))); }
+
+/// A column of means and the two columns of their intervals as one. The half-widths choose the digits: two of the
+/// largest one, a third where a smaller one would else be lost.
+Column as_means(const Table& table, std::size_t index) {
+  std::string name = table.columns[index];
+  if (name.ends_with(".mean")) name.resize(name.size() - std::string(".mean").size());
+  Column column{printable(name), table.units[index], {}, true};
+  const double scale = prefixed(column.unit, largest(table, index));
+  const auto value = [&](const auto& row, std::size_t at) {
+    const auto* number = std::get_if<double>(&row[at]);
+    return number ? *number * scale : std::numeric_limits<double>::quiet_NaN();
+  };
+  double least = 0, most = 0;
+  for (const auto& row : table.rows) {
+    const double half = (value(row, index + 2) - value(row, index + 1)) / 2;
+    if (!(half > 0)) continue;
+    most = std::max(most, half);
+    least = least > 0 ? std::min(least, half) : half;
+  }
+  const int digits = most > 0 ? std::max(0, std::min(decimals(least), decimals(most) + 1)) : 0;
+  const auto shown = [&](double x) {
+    return digits > 6 ? fmt::format("{:.3g}", x) : fmt::format("{:.{}f}", x, digits);
+  };
+  const std::size_t half_width = shown(most).size();
+  for (const auto& row : table.rows) {
+    const double mean = value(row, index), low = value(row, index + 1), high = value(row, index + 2);
+    const bool even = std::abs((high - mean) - (mean - low)) <= 1e-6 * (high - low);
+    if (std::isnan(mean)) {
+      column.cells.emplace_back("-");
+    } else if (std::isnan(low)) {
+      column.cells.push_back(most > 0 ? shown(mean) : number(mean, largest(table, index) * scale));
+    } else if (even) {
+      column.cells.push_back(fmt::format("{} ± {:>{}}", shown(mean), shown((high - low) / 2), half_width));
+    } else {
+      column.cells.push_back(fmt::format("{} ({} to {})", shown(mean), shown(low), shown(high)));
+    }
+  }
+  return column;
+}
+
 std::string aligned(const std::string& text, std::size_t columns, bool right) {
   const std::string space(columns - std::min(columns, width(text)), ' ');
   return right ? space + text : text + space;
 }
 
-std::string to_text(const Table& table) {
+std::string to_text(const Table& table, const std::vector<std::size_t>& means) {
   std::vector<Column> columns;
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    columns.push_back(as_text(table, i));
-    std::size_t most = std::max(width(columns[i].name), width(columns[i].unit));
-    for (const std::string& cell : columns[i].cells) most = std::max(most, width(cell));
+    const bool has_interval = std::ranges::find(means, i) != means.end();
+    const Column& column = columns.emplace_back(has_interval ? as_means(table, i) : as_text(table, i));
+    if (has_interval) i += 2;
+    std::size_t most = std::max(width(column.name), width(column.unit));
+    for (const std::string& cell : column.cells) most = std::max(most, width(cell));
     widths.push_back(most);
   }
   std::string text;
@@ -157,10 +192,17 @@ std::string to_json(const Table& table) {
 
 }  // namespace
 
-std::string text(const Table& table, Format format) {
+double prefixed(std::string& unit, double most) {
+  if (unit != "Pa" && unit != "N/m" && unit != "J/m" && unit != "Pa/m") return 1;
+  if (most < 1e3) return 1;
+  unit = (most >= 1e6 ? "M" : "k") + unit;
+  return most >= 1e6 ? 1e-6 : 1e-3;
+}
+
+std::string text(const Table& table, Format format, const std::vector<std::size_t>& means) {
   switch (format) {
     case Format::table:
-      return to_text(table);
+      return to_text(table, means);
     case Format::csv:
       return to_csv(table);
     case Format::json:
@@ -178,23 +220,30 @@ Table label_table(const std::vector<Labels>& cases) {
   }
   table.units.resize(table.columns.size());
   table.rows.resize(cases.size(), std::vector<Cell>(table.columns.size()));
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    std::vector<std::pair<std::size_t, double>> numbers;
-    std::vector<std::string> units;
-    for (std::size_t row = 0; row < cases.size(); ++row) {
-      const auto label = std::ranges::find(cases[row], table.columns[i], &Labels::value_type::first);
-      if (label == cases[row].end()) continue;
-      table.rows[row][i] = label->second;
-      const auto value = quantity(label->second);
-      if (value) numbers.emplace_back(row, value->first);
-      units.push_back(value ? value->second : "no number");
+  for (std::size_t row = 0; row < cases.size(); ++row) {
+    for (const auto& [path, value] : cases[row]) {
+      const auto column = std::ranges::find(table.columns, path) - table.columns.begin();
+      table.rows[row][static_cast<std::size_t>(column)] = value;
     }
-    const bool one_unit = std::ranges::all_of(units, [&](const std::string& unit) { return unit == units[0]; });
-    if (!one_unit || units[0] == "no number") continue;
-    table.units[i] = units[0];
-    for (const auto& [row, value] : numbers) table.rows[row][i] = value;
   }
+  for (std::size_t i = 0; i < table.columns.size(); ++i) read_quantities(table, i);
   return table;
+}
+
+void read_quantities(Table& table, std::size_t column) {
+  std::vector<std::pair<std::size_t, double>> numbers;
+  std::string unit;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto* words = std::get_if<std::string>(&table.rows[row][column]);
+    if (words == nullptr) continue;
+    const auto value = quantity(*words);
+    if (!value || (!numbers.empty() && value->second != unit)) return;
+    unit = value->second;
+    numbers.emplace_back(row, value->first);
+  }
+  if (numbers.empty()) return;
+  table.units[column] = unit;
+  for (const auto& [row, value] : numbers) table.rows[row][column] = value;
 }
 
 std::optional<std::pair<double, std::string>> quantity(const std::string& text) {

@@ -16,7 +16,13 @@ enum class Format {
   json,   ///< "schema": "runner/table/1"
 };
 
-std::string text(const store::Table& table, Format format);
+/// `means`: the columns of means, "x.mean", each followed by the two ends of its interval, "x.low" and "x.high". The
+/// table for people shows the three as one: "44.3 ± 1.2", or "1.52 (1.41 to 1.65)" where the ends are not as far from
+/// the mean, or the value alone where there is no interval.
+std::string text(const store::Table& table, Format format, const std::vector<std::size_t>& means = {});
+
+/// The factor that values of a unit are shown with when the largest is `most`; the unit gets its prefix ("kPa").
+double prefixed(std::string& unit, double most);
 
 /// What is said before rows that tell cases apart: one column per label.
 using Labels = std::vector<std::pair<std::string, std::string>>;
@@ -24,6 +30,9 @@ using Labels = std::vector<std::pair<std::string, std::string>>;
 /// Label columns of several cases: every path that occurs, in the order of first occurrence. A column whose values are
 /// all numbers with one unit becomes a column of numbers in that unit.
 store::Table label_table(const std::vector<Labels>& cases);
+
+/// Makes a column of texts that are all numbers with one unit a column of numbers in that unit; else does nothing.
+void read_quantities(store::Table& table, std::size_t column);
 
 /// "0.06 m/s" as 0.06 and "m/s"; absent when the text does not begin with a number or goes on otherwise.
 std::optional<std::pair<double, std::string>> quantity(const std::string& text);

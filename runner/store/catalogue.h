@@ -16,10 +16,19 @@ namespace seapile::store {
 /// One cell of a query's answer: absent, number, or text.
 using Cell = std::variant<std::monostate, double, std::string>;
 
+/// What a column of a query's answer tells of a run.
+enum class ColumnKind {
+  identity,   ///< which run it is, and how it ended
+  label,      ///< what sets its case apart
+  parameter,  ///< what was asked for
+  metric,     ///< what came out
+};
+
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::string> units;  ///< one per column, "" where there is none
   std::vector<std::vector<Cell>> rows;
+  std::vector<ColumnKind> kinds = {};  ///< one per column of a query's answer; other tables have none
 };
 
 /// What sets a case apart in its study: (dotted path, value as text with its unit).
@@ -57,7 +66,9 @@ class Catalogue {
   /// "kind", "outcome", then the distinguishing labels, then `extra` (dotted parameter paths or metric names), or by
   /// default the first six metrics in the runs' own order. `where`: conditions, ANDed, "path op value" with op one of =
   /// != < <= > >= over parameters ("pile.driving.constant.speed", "bed.seed", "pile.tip"), metrics or "outcome"; values
-  /// are bound, never pasted. Throws std::invalid_argument naming the nearest known name for an unknown one.
+  /// are bound, never pasted. What a drive's bed is known by has "bed:" before its name ("bed:solid_fraction"), which no
+  /// path has; "bed:case" is the bed's case. Throws std::invalid_argument naming the nearest known name for an unknown
+  /// one.
   Table query(const std::string& study, const std::vector<std::string>& where,
               const std::vector<std::string>& extra) const;
 

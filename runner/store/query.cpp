@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "runner/store/condition.h"
 #include "runner/store/ingest.h"
@@ -17,6 +18,10 @@ namespace {
 
 /// How many metrics a table shows when none are asked for: the solver lists its headline ones first.
 constexpr std::size_t kDefaultMetrics = 6;
+
+/// Before the name of what a drive's bed is known by. No path of a parameter has a colon.
+constexpr std::string_view kOfBed = "bed:";
+constexpr const char* kBedCase = "bed:case";
 
 using Texts = std::vector<std::string>;
 
@@ -53,15 +58,32 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
                                           nearest == known.end() ? "" : "; the nearest is \"" + *nearest + "\""));
 }
 
-enum class Subject { run_column, parameter, metric };
+enum class Subject { run_column, parameter, metric, bed_metric };
+
+/// The metric's own name: "solid_fraction" of "bed:solid_fraction".
+std::string metric_name(const std::string& name) {
+  return name.starts_with(kOfBed) ? name.substr(kOfBed.size()) : name;
+}
+
+/// The metrics of beds, for a drive's run d of a case with bed_id: of the very run that it was built on.
+constexpr const char* kMetricsOfBed =
+    "FROM metric m JOIN run b ON b.run_id = m.run_id JOIN kase c ON c.bed_id = b.case_id "
+    "JOIN run d ON d.case_id = c.case_id AND CAST(d.bed_run AS INTEGER) = b.number ";
 
 /// What a name stands for. Throws std::invalid_argument naming the nearest known one.
 Subject subject_of(SQLite::Database& sqlite, const std::string& name) {
-  if (name == "outcome" || name == "kind") return Subject::run_column;
+  if (name == "outcome" || name == "kind" || name == kBedCase) return Subject::run_column;
+  const std::string of_beds = "FROM metric JOIN run USING (run_id) JOIN kase USING (case_id) WHERE kind = 'bed'";
+  if (name.starts_with(kOfBed) && exists(sqlite, "SELECT 1 " + of_beds + " AND name = ? LIMIT 1", metric_name(name))) {
+    return Subject::bed_metric;
+  }
   if (exists(sqlite, "SELECT 1 FROM param WHERE path = ? LIMIT 1", name)) return Subject::parameter;
   if (exists(sqlite, "SELECT 1 FROM metric WHERE name = ? LIMIT 1", name)) return Subject::metric;
-  Texts known = texts(sqlite, "SELECT DISTINCT path FROM param UNION SELECT DISTINCT name FROM metric");
-  known.insert(known.end(), {"outcome", "kind"});
+  Texts known = texts(sqlite,
+                      "SELECT DISTINCT path FROM param UNION SELECT DISTINCT name FROM metric "
+                      "UNION SELECT DISTINCT 'bed:' || name " +
+                          of_beds);
+  known.insert(known.end(), {"outcome", "kind", kBedCase});
   refuse_unknown("parameter or metric", name, known);
 }
 
@@ -78,20 +100,26 @@ Clause clause_of(SQLite::Database& sqlite, const Condition& condition) {
   const Subject subject = subject_of(sqlite, condition.path);
   if (subject == Subject::run_column) {
     if (text == nullptr) throw std::invalid_argument(condition.path + " is a text");
-    return {(condition.path == "kind" ? "k.kind " : "r.outcome ") + op + " ?", {*text}};
+    const std::string column = condition.path == "kind"     ? "k.kind "
+                               : condition.path == kBedCase ? fmt::format("substr(k.bed_id, 1, {}) ", kShownDigits)
+                                                            : "r.outcome ";
+    return {column + op + " ?", {*text}};
   }
-  const bool is_metric = subject == Subject::metric;
-  const std::string rows = is_metric ? "r.run_id IN (SELECT run_id FROM metric WHERE name = ? AND "
-                                     : "r.case_id IN (SELECT case_id FROM param WHERE path = ? AND ";
-  if (number != nullptr) return {rows + (is_metric ? "value " : "num ") + op + " ?)", {condition.path, *number}};
+  const bool is_metric = subject != Subject::parameter;
+  const std::string rows = subject == Subject::metric ? "r.run_id IN (SELECT run_id FROM metric WHERE name = ? AND "
+                           : subject == Subject::bed_metric
+                               ? fmt::format("r.run_id IN (SELECT d.run_id {}WHERE m.name = ? AND ", kMetricsOfBed)
+                               : "r.case_id IN (SELECT case_id FROM param WHERE path = ? AND ";
+  const std::string name = subject == Subject::bed_metric ? metric_name(condition.path) : condition.path;
+  if (number != nullptr) return {rows + (is_metric ? "value " : "num ") + op + " ?)", {name, *number}};
   const std::string present = is_metric ? "value IS NOT NULL)" : "(num IS NOT NULL OR txt IS NOT NULL))";
   if (text == nullptr) {
-    return {(condition.op == Condition::Op::equal ? "NOT " : "") + rows + present, {condition.path}};
+    return {(condition.op == Condition::Op::equal ? "NOT " : "") + rows + present, {name}};
   }
   const bool has_text =
       !is_metric && exists(sqlite, "SELECT 1 FROM param WHERE path = ? AND txt IS NOT NULL LIMIT 1", condition.path);
   if (!has_text) throw std::invalid_argument(condition.path + " is a number, in SI units; \"" + *text + "\" is none");
-  return {rows + "txt " + op + " ?)", {condition.path, *text}};
+  return {rows + "txt " + op + " ?)", {name, *text}};
 }
 
 void put_value(SQLite::Statement& statement, int index, const Cell& value) {
@@ -110,15 +138,20 @@ class ExtraColumn {
  public:
   ExtraColumn(SQLite::Database& sqlite, const std::string& name) : name_(name), subject_(subject_of(sqlite, name)) {
     if (subject_ == Subject::metric) value_.emplace(sqlite, "SELECT value FROM metric WHERE run_id = ?1 AND name = ?2");
+    if (subject_ == Subject::bed_metric) {
+      value_.emplace(sqlite, fmt::format("SELECT m.value {}WHERE d.run_id = ?1 AND m.name = ?2", kMetricsOfBed));
+    }
     if (subject_ == Subject::parameter) {
       value_.emplace(sqlite, "SELECT coalesce(num, txt) FROM param WHERE case_id = ?1 AND path = ?2");
     }
   }
 
   const std::string& name() const { return name_; }
-  bool is_metric() const { return subject_ == Subject::metric; }
+  Subject subject() const { return subject_; }
+  bool is_metric() const { return subject_ == Subject::metric || subject_ == Subject::bed_metric; }
 
   Cell of(const ListedRun& run) {
+    if (name_ == kBedCase) return run.bed_id.empty() ? Cell{} : Cell{run.bed_id.substr(0, kShownDigits)};
     if (subject_ == Subject::run_column) return name_ == "kind" ? run.kind : run.outcome;
     value_->reset();
     if (is_metric()) {
@@ -126,7 +159,7 @@ class ExtraColumn {
     } else {
       value_->bind(1, run.case_id);
     }
-    value_->bind(2, name_);
+    value_->bind(2, is_metric() ? metric_name(name_) : name_);
     return value_->executeStep() ? cell(value_->getColumn(0)) : Cell{};
   }
 
@@ -138,8 +171,11 @@ class ExtraColumn {
 
 std::string unit_of(SQLite::Database& sqlite, const ExtraColumn& column) {
   if (column.is_metric()) {
-    SQLite::Statement unit(sqlite, "SELECT unit FROM metric WHERE name = ? ORDER BY run_id DESC LIMIT 1");
-    unit.bind(1, column.name());
+    SQLite::Statement unit(sqlite,
+                           "SELECT unit FROM metric JOIN run USING (run_id) JOIN kase USING (case_id) "
+                           "WHERE name = ?1 AND (NOT ?2 OR kind = 'bed') ORDER BY run_id DESC LIMIT 1");
+    unit.bind(1, metric_name(column.name()));
+    unit.bind(2, column.subject() == Subject::bed_metric ? 1 : 0);
     return unit.executeStep() ? unit.getColumn(0).getString() : "";
   }
   const auto found = parameter_units().find(column.name());
@@ -195,7 +231,7 @@ std::vector<ListedRun> list_runs(SQLite::Database& sqlite, const std::string& st
   if (!all && !exists(sqlite, "SELECT 1 FROM study WHERE name = ?", study)) {
     refuse_unknown("study", study, texts(sqlite, "SELECT name FROM study ORDER BY name"));
   }
-  std::string text = "SELECT r.run_id, r.case_id, r.number, k.kind, r.outcome, r.folder, " +
+  std::string text = "SELECT r.run_id, r.case_id, r.number, k.kind, r.outcome, r.folder, k.bed_id, " +
                      std::string(all ? "NULL" : "sc.labels") + " FROM run r JOIN kase k ON k.case_id = r.case_id ";
   std::vector<Cell> values;
   if (!all) {
@@ -214,10 +250,10 @@ std::vector<ListedRun> list_runs(SQLite::Database& sqlite, const std::string& st
   for (std::size_t i = 0; i < values.size(); ++i) put_value(statement, static_cast<int>(i) + 1, values[i]);
   std::vector<ListedRun> runs;
   while (statement.executeStep()) {
-    runs.push_back({statement.getColumn(0).getInt64(), statement.getColumn(1).getString(),
-                    statement.getColumn(2).getInt64(), statement.getColumn(3).getString(),
-                    statement.getColumn(4).getString(), statement.getColumn(5).getString(),
-                    all ? Labels{} : labels_from(statement.getColumn(6).getString())});
+    runs.push_back(
+        {statement.getColumn(0).getInt64(), statement.getColumn(1).getString(), statement.getColumn(2).getInt64(),
+         statement.getColumn(3).getString(), statement.getColumn(4).getString(), statement.getColumn(5).getString(),
+         statement.getColumn(6).getString(), all ? Labels{} : labels_from(statement.getColumn(7).getString())});
   }
   if (all) add_all_labels(sqlite, runs);
   return runs;
@@ -233,14 +269,19 @@ Table query_table(SQLite::Database& sqlite, const std::string& study, const Text
     columns.emplace_back(sqlite, name);
   }
 
-  Table table{{"case", "run", "kind", "outcome"}, {"", "", "", ""}, {}};
-  for (const std::string& path : labels) {
-    table.columns.push_back(path);
-    table.units.emplace_back();
-  }
+  Table table;
+  const auto add = [&](const std::string& name, const std::string& unit, ColumnKind kind) {
+    table.columns.push_back(name);
+    table.units.push_back(unit);
+    table.kinds.push_back(kind);
+  };
+  for (const char* name : {"case", "run", "kind", "outcome"}) add(name, "", ColumnKind::identity);
+  for (const std::string& path : labels) add(path, "", ColumnKind::label);
   for (const ExtraColumn& column : columns) {
-    table.columns.push_back(column.name());
-    table.units.push_back(unit_of(sqlite, column));
+    add(column.name(), unit_of(sqlite, column),
+        column.is_metric()                       ? ColumnKind::metric
+        : column.subject() == Subject::parameter ? ColumnKind::parameter
+                                                 : ColumnKind::identity);
   }
   for (const ListedRun& run : runs) {
     auto& row = table.rows.emplace_back();

@@ -19,6 +19,7 @@ struct ListedRun {
   std::string case_id;
   std::int64_t number;
   std::string kind, outcome, folder;
+  std::string bed_id;  ///< "": the case is a bed
   Labels labels;
 };
 

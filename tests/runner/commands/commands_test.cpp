@@ -64,7 +64,7 @@ TEST_F(RunStudy, EndsWithATableARemarkAndAPicture) {
   EXPECT_THAT(out[3], HasSubstr("conical"));
   EXPECT_THAT(out[3], HasSubstr("completed"));
   EXPECT_THAT(out[4], HasSubstr("flat"));
-  EXPECT_THAT(first->out, HasSubstr("One packing is one packing"));
+  EXPECT_THAT(first->out, HasSubstr("one packing: no interval"));
   EXPECT_EQ(out.back(), "results/figures/small.svg");
   EXPECT_THAT(content(place->results() / "figures" / "small.svg"), HasSubstr("Which tip meets more resistance?"));
 }
@@ -259,7 +259,7 @@ TEST(Run, SetAndSeedsMakeOtherCases) {
   EXPECT_EQ(finished.exit_code, 0) << finished.error;
   const auto rows =
       nlohmann::json::parse(
-          place.run({"query", "small", "--columns", "bed.seed,pile.depth,pile.tip", "--format", "json"}).out)
+          place.run({"query", "small", "--columns", "bed.seed,pile.depth,pile.tip", "--each", "--format", "json"}).out)
           .at("rows");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows.at(0).at("bed.seed"), 1);
@@ -268,7 +268,7 @@ TEST(Run, SetAndSeedsMakeOtherCases) {
     EXPECT_EQ(row.at("pile.depth"), 0.1);
     EXPECT_EQ(row.at("pile.tip"), "flat");
   }
-  EXPECT_THAT(finished.out, Not(HasSubstr("One packing is one packing")));
+  EXPECT_THAT(finished.out, Not(HasSubstr("one packing: no interval")));
 }
 
 TEST(Run, ABadStudyIsRefusedWithEveryProblemAndLeavesNoFolder) {
@@ -337,11 +337,11 @@ TEST(Program, HelpVersionAndUsage) {
   const Workplace place;
   const Finished help = place.run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* word : {"run", "query", "curve", "figure", "show", "verify", "reindex", "Examples"}) {
+  for (const char* word : {"run", "query", "curve", "figure", "trend", "show", "verify", "reindex", "Examples"}) {
     EXPECT_THAT(help.out, HasSubstr(word));
   }
   EXPECT_THAT(help.out, Not(HasSubstr("exec")));
-  for (const char* command : {"run", "query", "curve", "figure", "show", "verify", "reindex"}) {
+  for (const char* command : {"run", "query", "curve", "figure", "trend", "show", "verify", "reindex"}) {
     const Finished finished = place.run({command, "--help"});
     EXPECT_EQ(finished.exit_code, 0);
     EXPECT_THAT(finished.out, HasSubstr("Example")) << command;

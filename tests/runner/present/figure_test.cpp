@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "runner/store/run_folder.h"
@@ -61,12 +63,47 @@ TEST(BinMeans, APileThatMovesUpAndDownCountsWhereItReachesNewDepth) {
   EXPECT_EQ(bin_means(bouncing), bin_means(steady));
 }
 
-TEST(MeanOfPackings, IsOverTheBinsThatAllHave) {
-  CurveGroup group{"", {ramp(0.2), ramp(0.1)}};
+TEST(BandOfPackings, IsTheIntervalOfTheMeanOverTheBinsThatAllHave) {
+  CurveGroup group{"", {ramp(0.2), ramp(0.1), ramp(0.2)}};
   for (double& value : group.packings[1].resistance) value *= 3;
-  const auto means = mean_of_packings(group);
-  ASSERT_EQ(means.size(), 2u);
-  EXPECT_NEAR(means[0].second, 2 * 505, 1e-6);
+  for (double& value : group.packings[2].resistance) value *= 2;
+  const auto band = band_of_packings(group);
+  ASSERT_EQ(band.size(), 2u);
+  EXPECT_NEAR(band[0].depth, 0.025, 1e-12);
+  EXPECT_EQ(band[0].mean.n, 3u);
+  EXPECT_NEAR(band[0].mean.mean, 2 * 505, 1e-6);
+  // 505, 1515, 1010: standard deviation 505, t_0.975(2) = 4.302653.
+  EXPECT_NEAR(band[0].mean.high - band[0].mean.mean, 4.302653 * 505 / std::sqrt(3), 1e-3);
+  EXPECT_NEAR(band[0].mean.mean - band[0].mean.low, 4.302653 * 505 / std::sqrt(3), 1e-3);
+}
+
+TEST(BandOfPackings, NarrowsWithTheNumberOfPackings) {
+  CurveGroup group;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i) {
+    group.packings.push_back(ramp(0.2));
+    for (double& value : group.packings.back().resistance) value *= i % 2 == 0 ? 1 : 1.2;
+    if (i % 2 == 0) continue;
+    const auto mean = band_of_packings(group)[2].mean;
+    EXPECT_LT(mean.high - mean.low, before);
+    before = mean.high - mean.low;
+  }
+}
+
+TEST_F(FigureTest, SeveralPackingsHaveABandAndALegendThatSaysSo) {
+  ResistanceCurve higher = ramp(1.2);
+  for (double& value : higher.resistance) value += 2000;
+  draw({"", {{"tip flat", {ramp(1.2), higher}}, {"tip conical", {ramp(1.2), ramp(1.2), higher}}}}, folder / "a.svg");
+  const std::string svg = content(folder / "a.svg");
+  EXPECT_THAT(svg, HasSubstr("mean of 2 to 3 packings, 95 % band"));
+  EXPECT_THAT(svg, HasSubstr("fill-opacity"));
+  EXPECT_THAT(gnuplot_script({"", {{"a", {ramp(0.2), ramp(0.2)}}}}, "a.svg"), HasSubstr("$band_0 "));
+}
+
+TEST_F(FigureTest, OnePackingHasNoBand) {
+  const std::string script = gnuplot_script({"", {{"tip flat", {ramp(1.2)}}}}, "a.svg");
+  EXPECT_THAT(script, Not(HasSubstr("band")));
+  EXPECT_THAT(script, HasSubstr("One packing"));
 }
 
 TEST_F(FigureTest, IsACompletePictureWithItsTexts) {
@@ -124,7 +161,12 @@ TEST_F(FigureTest, TwelveCasesHaveTwelveLooks) {
 
 TEST_F(FigureTest, AFolderThatCannotBeWrittenIsAnErrorInWords) {
   std::ofstream(folder / "file") << "in the way";
+  const fs::path before = fs::current_path(), apart = folder / "apart";
+  fs::create_directories(apart);
+  fs::current_path(apart);
   EXPECT_THROW(draw({"", {{"", {ramp(0.2)}}}}, folder / "file" / "a.svg"), store::StoreError);
+  fs::current_path(before);
+  EXPECT_TRUE(fs::is_empty(apart)) << "something was written where the program was started";
 }
 
 }  // namespace

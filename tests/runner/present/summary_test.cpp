@@ -8,6 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 CaseResult a_case(const Labels& labels) { return {std::string(64, 'a'), labels, "failed", {}, {}}; }
 
@@ -22,23 +23,19 @@ TEST(Summary, ACaseWithoutAResultIsListedWithItsOutcome) {
   for (std::size_t i = 3; i < table.columns.size(); ++i) EXPECT_EQ(table.rows[0][i], store::Cell());
 }
 
-TEST(PackingRemark, OnePackingIsCalledOne) {
-  EXPECT_THAT(packing_remark({a_case({{"pile.tip", "flat"}}), a_case({{"pile.tip", "conical"}})}),
-              HasSubstr("One packing is one packing"));
-  EXPECT_THAT(packing_remark({a_case({})}), HasSubstr("One packing is one packing"));
+TEST(ClosingText, OnePackingIsCalledOne) {
+  EXPECT_THAT(closing_text({a_case({{"pile.tip", "flat"}}), a_case({{"pile.tip", "conical"}})}),
+              HasSubstr("one packing: no interval"));
+  EXPECT_THAT(closing_text({a_case({})}), HasSubstr("one packing: no interval"));
 }
 
-TEST(PackingRemark, SeveralPackingsOfEveryCaseNeedNoRemark) {
-  EXPECT_THAT(packing_remark({a_case({{"pile.tip", "flat"}, {"bed.seed", "1"}}),
-                              a_case({{"pile.tip", "flat"}, {"bed.seed", "2"}})}),
-              IsEmpty());
-}
-
-TEST(PackingRemark, ACaseWithOnePackingAmongOthersIsMentioned) {
-  EXPECT_THAT(packing_remark({a_case({{"pile.tip", "flat"}, {"bed.seed", "1"}}),
-                              a_case({{"pile.tip", "flat"}, {"bed.seed", "2"}}),
-                              a_case({{"pile.tip", "conical"}, {"bed.seed", "1"}})}),
-              HasSubstr("Some cases"));
+TEST(ClosingText, SeveralPackingsOfACaseAreOneRow) {
+  const std::string text = closing_text({a_case({{"pile.tip", "flat"}, {"bed.seed", "1"}}),
+                                         a_case({{"pile.tip", "flat"}, {"bed.seed", "2"}}),
+                                         a_case({{"pile.tip", "conical"}, {"bed.seed", "1"}})});
+  EXPECT_EQ(text.find("flat"), text.rfind("flat"));
+  EXPECT_THAT(text, Not(HasSubstr("bed.seed")));
+  EXPECT_THAT(text, HasSubstr("3 runs are not completed and left out"));
 }
 
 TEST(ResistanceFigure, WithoutACompletedDriveThereIsNothingToDraw) {

@@ -119,6 +119,42 @@ TEST_F(FilledCatalogue, FindsByParameterMetricAndOutcome) {
   EXPECT_EQ(count("", {"kind = bed"}), 0U);
 }
 
+TEST_F(FilledCatalogue, ADriveIsAskedForWhatItsBedIsKnownBy) {
+  const sample::Written written = sample::write(root_);
+  Catalogue catalogue = Catalogue::open(root_);
+  catalogue.ingest(written.bed);
+  catalogue.ingest(written.drive);
+  // A later run of the same bed, on which the drive does not stand.
+  simulation::RunResult again = sample::bed_result();
+  again.metrics[0].value = 0.9;
+  const Path later = written.bed.parent_path() / "0002";
+  const simulation::Bed bed = sample::bed();
+  RunWriter(later, sample::bed_header()).finish(again, sample::provenance(), &bed);
+  catalogue.ingest(later);
+
+  const Texts columns = {"bed:solid_fraction", "bed:surface", "bed:case"};
+  const std::string id = sample::bed_header().case_id.substr(0, 10);
+  const Table table = catalogue.query("", {"bed:solid_fraction > 0.8", "bed:surface != null"}, columns);
+  ASSERT_EQ(table.rows.size(), 6U);  // All drives here stand on that bed; it is no drive.
+  EXPECT_EQ(Texts(table.units.end() - 3, table.units.end()), (Texts{"-", "m", ""}));
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(row[2], Cell{std::string("drive")});
+    EXPECT_EQ(std::vector<Cell>(row.end() - 3, row.end()), (std::vector<Cell>{0.8112, 1.2071, id}));
+  }
+  EXPECT_EQ(catalogue.query("", {"bed:solid_fraction > 0.85"}, {}).rows.size(), 0U);
+  EXPECT_EQ(catalogue.query("", {"bed:case = " + id}, {}).rows.size(), 6U);
+  EXPECT_EQ(catalogue.query("", {"bed:solid_fraction = null"}, {}).rows.size(), 1U);  // A bed stands on none.
+  EXPECT_EQ(catalogue.query("", {"kind = bed"}, columns).rows[0].back(), Cell{});
+  EXPECT_THROW(catalogue.query("", {}, {"bed:tip_resistance_mean"}), std::invalid_argument);
+}
+
+TEST_F(FilledCatalogue, SaysWhatEachColumnTells) {
+  const Table table = Catalogue::open_read_only(root_).query("tips", {}, {"tip_resistance_mean", "bed.seed", "kind"});
+  using enum ColumnKind;
+  EXPECT_EQ(table.kinds, (std::vector<ColumnKind>{identity, identity, identity, identity, label, label, metric,
+                                                  parameter, identity}));
+}
+
 TEST_F(FilledCatalogue, NamesTheNearestOfAnUnknownName) {
   const Catalogue catalogue = Catalogue::open_read_only(root_);
   const auto complaint = [&](const std::string& study, const Texts& where, const Texts& extra) -> std::string {

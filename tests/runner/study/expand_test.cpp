@@ -233,5 +233,21 @@ TEST(Studies, VelocityIsThreeSpeedsOnTheBedOfTipShape) {
   EXPECT_EQ(speeds.cases[2].bed_id, tips.cases[0].bed_id);
 }
 
+TEST(Studies, DensityComparesSpeedsOnTheSameEightBedsOfEachDensity) {
+  const Study density = read(SEAPILE_SOURCE_DIR "/studies/density.json");
+  ASSERT_EQ(density.cases.size(), 5u * 2 * 8);
+  std::set<std::string> beds;
+  for (std::size_t i = 0; i < density.cases.size(); i += 16) {
+    for (std::size_t seed = 0; seed < 8; ++seed) {
+      const Case &slow = density.cases[i + seed], &fast = density.cases[i + 8 + seed];
+      EXPECT_EQ(slow.scene.pile->driving, pile::Driving(pile::ConstantDriving{0.06}));
+      EXPECT_EQ(fast.scene.pile->driving, pile::Driving(pile::ConstantDriving{0.4}));
+      EXPECT_EQ(slow.bed_id, fast.bed_id);
+      beds.insert(slow.bed_id);
+    }
+  }
+  EXPECT_EQ(beds.size(), 40u);
+}
+
 }  // namespace
 }  // namespace seapile::study

@@ -1,0 +1,137 @@
+#include "runner/present/gnuplot.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/exe.hpp>
+#include <boost/process/io.hpp>
+#include <boost/process/pipe.hpp>
+#include <boost/process/search_path.hpp>
+#include <boost/process/start_dir.hpp>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "runner/store/run_folder.h"
+
+namespace seapile::present {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Okabe and Ito's colours, told apart by colour-blind readers; their yellow is too pale for a line on white.
+constexpr std::string_view kColours[] = {"0072B2", "D55E00", "009E73", "CC79A7", "E69F00", "56B4E9", "444444"};
+constexpr std::size_t kColourCount = std::size(kColours);
+constexpr std::string_view kDashes[] = {"solid", "(12,5)", "(3,4)"};
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// gnuplot's SVG with what it cannot be told: bold as a weight, fonts to fall back to, spaces beside symbols,
+/// no pop-up names of its own.
+std::string finished(std::string svg) {
+  replace_all(svg, R"(font-family="Helvetica:Bold")", R"(font-weight="bold" font-family="Helvetica")");
+  replace_all(svg, R"(font-family="Helvetica")", R"(font-family="Helvetica, Arial, 'Liberation Sans', sans-serif")");
+  replace_all(svg, "<text>", R"(<text xml:space="preserve">)");
+  for (std::size_t at = 0; (at = svg.find("<title>", at)) != std::string::npos;) {
+    svg.erase(at, svg.find("</title>", at) + std::string_view("</title>").size() - at);
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      result += ' ';
+    } else if (std::string_view("\"\\`'$@").find(c) != std::string_view::npos) {
+      result += fmt::format("\\{:03o}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
+  const auto length = [](const std::string& s) {
+    return static_cast<std::size_t>(std::ranges::count_if(s, [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  std::vector<std::string> lines;
+  std::string line, word;
+  const auto take = [&] {
+    if (word.empty()) return;
+    if (!line.empty() && length(line) + 1 + length(word) > most) {
+      lines.push_back(line);
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    word.clear();
+  };
+  for (const char c : text) {
+    if (c == ' ' || c == '\n' || c == '\t') {
+      take();
+    } else {
+      word += c;
+    }
+  }
+  take();
+  if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+Style style_of(std::size_t group) {
+  return {kColours[group % kColourCount], kDashes[std::min(group / kColourCount, std::size(kDashes) - 1)]};
+}
+
+void draw_with_gnuplot(const std::function<std::string(const std::string&)>& script, const fs::path& svg) {
+  namespace bp = boost::process;
+  const auto fail = [&](const std::string& why) {
+    throw store::StoreError(store::StoreError::Kind::io, fmt::format("{} was not drawn: {}", svg.string(), why));
+  };
+  const auto gnuplot = bp::search_path("gnuplot");
+  if (gnuplot.empty()) fail("gnuplot is not installed");
+
+  // gnuplot gets a plain name in the picture's own folder, whatever that folder is called.
+  std::error_code error;
+  fs::create_directories(svg.parent_path(), error);
+  // Else gnuplot would start, and write, in the folder of its caller.
+  if (error || !fs::is_directory(svg.parent_path())) fail(error ? error.message() : "its folder is none");
+  const std::string temporary = fmt::format(".figure-{}.tmp", ::getpid());
+  const fs::path written = svg.parent_path() / temporary;
+  std::string complaint;
+  int code = 0;
+  try {
+    bp::opstream input;
+    bp::ipstream output;
+    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::start_dir = svg.parent_path().string(),
+                    bp::std_in<input, bp::std_out> bp::null, bp::std_err > output);
+    input << script(temporary) << std::flush;
+    input.pipe().close();
+    for (std::string line; std::getline(output, line);) {
+      if (complaint.empty() && line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
+    }
+    child.wait();
+    code = child.exit_code();
+  } catch (const std::system_error& failure) {
+    complaint = failure.what();
+    code = -1;
+  }
+  std::ifstream in(written);
+  std::string picture{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const bool whole = picture.find("</svg>") != std::string::npos;
+  fs::remove(written, error);
+  if (code != 0 || !whole) fail(complaint.empty() ? fmt::format("gnuplot ended with code {}", code) : complaint);
+  store::write_text(svg, finished(std::move(picture)));
+}
+
+}  // namespace seapile::present

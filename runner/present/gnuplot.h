@@ -1,0 +1,30 @@
+// gnuplot as a subprocess that writes one SVG file, and the looks that all pictures share.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seapile::present {
+
+/// A gnuplot string. What could end it, run a command or name a macro is written by its octal code.
+std::string quoted(const std::string& text);
+
+/// Lines of at most `most` characters, broken at spaces.
+std::vector<std::string> wrapped(const std::string& text, std::size_t most);
+
+/// How the n-th group of a picture looks: an RGB colour in hex, and a dash as gnuplot takes it.
+struct Style {
+  std::string_view colour;
+  std::string_view dash;
+};
+Style style_of(std::size_t group);
+
+/// Runs what `script` gives for the name of a file in the picture's folder; the picture appears when it is complete.
+/// Throws store::StoreError.
+void draw_with_gnuplot(const std::function<std::string(const std::string&)>& script, const std::filesystem::path& svg);
+
+}  // namespace seapile::present
