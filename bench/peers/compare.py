@@ -32,7 +32,7 @@ FORCE = ["code", "version", "seed", "solid_fraction", "tip", "speed", "substeps"
 TUNE = ["code", "version", "change", "kn", "dt", "steps", "cpu_per_s"]
 OUR_USUAL = 10  # sub-steps
 
-# Steps of the search for the largest stable one, at the reference stiffness [s]. The first is the usual one: a seventh of
+# Steps of the search for the largest stable one, at the reference stiffness [s]. The first is the usual one: an eighth of
 # the time that two of the smallest grains touch.
 FIRST_STEP, STEP_RISE, TRIAL_TIME = 2e-5, 2.5e-6, 0.1
 # A run has exploded when its kinetic energy passes this many times the largest one at FIRST_STEP. It is sound when what
