@@ -20,8 +20,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-from programs import HERE, REFERENCE_STIFFNESS, ROOT, Failed, Scene, missing, our_version
-from tables import block_mean, interpolate, print_table, read_csv, standard_error, write_csv, write_text
+from programs import HERE, OUR_USUAL, REFERENCE_STIFFNESS, ROOT, Failed, Scene, missing, our_version
+from report import print_cost, print_force
+from tables import block_mean, read_csv, write_csv, write_text
 
 COST = ["code", "version", "setting", "ranks", "substeps", "kn", "dt", "simulated", "steps", "cpu", "cpu_per_s",
         "wall_per_s", "overlap_p999", "overlap_mean", "overlap_max", "contacts", "force_mean", "force_se",
@@ -30,8 +31,6 @@ STABLE = ["code", "version", "kn", "dt", "stable", "sound", "kinetic_energy_max"
 FORCE = ["code", "version", "seed", "solid_fraction", "tip", "speed", "substeps", "kn", "dt", "from", "end", "force_mean",
          "force_se", "overlap_p999"]
 TUNE = ["code", "version", "change", "kn", "dt", "steps", "cpu_per_s"]
-OUR_USUAL = 10  # sub-steps
-
 # Steps of the search for the largest stable one, at the reference stiffness [s]. The first is the usual one: an eighth of
 # the time that two of the smallest grains touch.
 FIRST_STEP, STEP_RISE, TRIAL_TIME = 2e-5, 2.5e-6, 0.1
@@ -137,6 +136,9 @@ def cost(options, work):
 def force(options, work):
     path = options.record / "force.csv"
     rows = read_csv(path) if options.keep and path.exists() else []
+    asked = {"tip": options.tip, "speed": options.speed, "from": options.from_depth, "end": options.end}
+    if any(r[name] != value for r in rows for name, value in asked.items()):
+        raise Failed(f"{path} has rows of another tip, speed or depth: give those, or leave --keep")
     done = {(r["code"], int(r["seed"])) for r in rows}
     for seed in range(1, options.seeds + 1):
         lacking = [code for code in ["ours", *options.codes] if (code, seed) not in done]
@@ -168,52 +170,6 @@ def tune(options, work):
             rows.append(row | {"code": code, "change": text, "cpu_per_s": row["cpu"] / row["simulated"]})
             write_csv(options.record / "tune.csv", TUNE, rows)
             said(f"{code}, {text}: {rows[-1]['cpu_per_s']:.1f} CPU s per s")
-
-
-def print_cost(rows):
-    percent = lambda v: f"{100 * v:.3f} %"
-    print_table(["code", "setting", "ranks", "kn N/m or sub-steps", "dt s", "CPU s / s", "wall s / s", "p99.9", "mean", "max",
-                 "force N/m (block s.e.)"],
-                [[r["code"], r["setting"], f"{r['ranks']:.0f}", f"{r['kn'] or r['substeps']:g}", f"{r['dt']:.4g}",
-                  f"{r['cpu_per_s']:.2f}", f"{r['wall_per_s']:.2f}", percent(r["overlap_p999"]), percent(r["overlap_mean"]),
-                  percent(r["overlap_max"]), f"{r['force_mean']:.0f} ({r['force_se']:.0f})"] for r in rows])
-    ours = [r for r in rows if r["code"] == "ours"]
-    peers = sorted({(r["code"], r["setting"]) for r in rows if r["code"] != "ours"})
-    single = lambda code, setting: [r for r in rows if (r["code"], r["setting"], r["ranks"]) == (code, setting, 1)]
-
-    lines = []
-    for our in ours:
-        for code, setting in peers:
-            points = [(r["overlap_p999"], r["cpu_per_s"], f"{r['kn']:g}") for r in single(code, setting)]
-            found = interpolate(points, our["overlap_p999"])
-            lines.append([f"{our['substeps']:.0f}", percent(our["overlap_p999"]), f"{our['cpu_per_s']:.2f}", code, setting] +
-                         ([f"{found[0]:.1f}", f"{found[2]} - {found[1]}", f"{found[0] / our['cpu_per_s']:.1f}"] if found
-                          else ["-", "outside what was run", "-"]))
-    print("At equal 99.9th percentile of the overlaps, between the two stiffnesses around it:\n")
-    print_table(["our sub-steps", "p99.9", "our CPU s / s", "code", "setting", "its CPU s / s", "kn N/m", "ratio"], lines)
-
-    usual = next((r for r in ours if r["substeps"] == OUR_USUAL), None)
-    if usual:
-        print("At usual settings:\n")
-        print_table(["code", "setting", "CPU s / s", "p99.9", "ratio of cost"],
-                    [[r["code"], f"kn {r['kn']:g} N/m, dt {r['dt']:.3g} s, {r['setting']}", f"{r['cpu_per_s']:.2f}",
-                      percent(r["overlap_p999"]), f"{r['cpu_per_s'] / usual['cpu_per_s']:.1f}"]
-                     for r in rows if r["kn"] == REFERENCE_STIFFNESS and r["ranks"] == 1] +
-                    [["ours", f"{OUR_USUAL} sub-steps", f"{usual['cpu_per_s']:.2f}", percent(usual["overlap_p999"]), "1"]])
-
-
-def print_force(rows):
-    groups = {}
-    for r in rows:
-        groups.setdefault((r["code"], r["substeps"] or r["kn"]), {})[r["seed"]] = r["force_mean"]
-    ours = next((v for k, v in groups.items() if k == ("ours", OUR_USUAL)), {})
-    lines = []
-    for (code, setting), by_seed in groups.items():
-        values = list(by_seed.values())
-        shared = [by_seed[s] / ours[s] for s in by_seed if s in ours]
-        lines.append([code, f"{setting:g}", f"{len(values)}", f"{sum(values) / len(values):.0f}", f"{standard_error(values):.0f}",
-                      f"{sum(shared) / len(shared):.3f} ({standard_error(shared):.3f})" if shared else "-"])
-    print_table(["code", "sub-steps or kn N/m", "beds", "mean force N/m", "s.e. over beds", "ratio to ours, bed by bed (s.e.)"], lines)
 
 
 def print_recorded(options):
@@ -254,7 +210,7 @@ def arguments():
             p.add_argument("--seed", type=int, default=1, help="of the bed")
         if name != "tune":
             p.add_argument("--substeps", type=numbers(int), default=[5, 10, 20, 40] if name == "cost" else [OUR_USUAL])
-            p.add_argument("--stiffness", type=numbers(float), default=[2e7, 5e7, 1e8, 2e8, 4e8] if name == "cost" else [1e8],
+            p.add_argument("--stiffness", type=numbers(float), default=[2e7, 5e7, 1e8, 2e8, 5e8] if name == "cost" else [1e8],
                            help="kn of the peers [N/m]")
         p.add_argument("--ranks", type=numbers(int), default=[1], help="processes; other than 1 only at kn = 1e8 N/m") \
             if name == "cost" else p.set_defaults(ranks=[1])

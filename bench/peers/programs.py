@@ -14,6 +14,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 REFERENCE_STIFFNESS = 1e8  # [N/m]
 REFERENCE_DAMPING = 1.1e4  # gamma_n at that stiffness [1/s]: 0.3 of critical for the smallest grains
+OUR_USUAL = 10  # sub-steps
 FORCE_WINDOW = 1e-3  # [s] over which peers average the pile's force
 
 # What was found fastest (README.md).
