@@ -33,10 +33,13 @@ struct Bounce {
   double pn = 0, pt = 0;
 };
 
-Bounce bounce(double approach, Across now, double gap, double normal_mass, double tangential_mass, double friction,
-              const ContactLaw& law) {
+/// `last`: normal impulse of the last sub-step [N s/m]. A contact that begins to close in it is left touching, with what
+/// remained of its approach: the step after would take that for the whole.
+Bounce bounce(double approach, Across now, double last, double gap, double normal_mass, double tangential_mass,
+              double friction, const ContactLaw& law) {
   const double threshold = 2 * law.gravity * law.step;
-  const bool closed = approach < -threshold && now.normal > 0.5 * approach && gap < -approach * law.step / law.substeps;
+  const bool stopped = last > 0 || now.normal > 0.5 * approach;
+  const bool closed = approach < -threshold && stopped && gap < -approach * law.step / law.substeps;
   if (!closed) return {};
   const double pn = std::max(-normal_mass * (now.normal + law.restitution * approach), 0.0);
   return {pn, std::clamp(-tangential_mass * now.tangential, -friction * pn, friction * pn)};
@@ -86,10 +89,13 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
         const double nx = static_cast<double>(block.nx[lane]), ny = static_cast<double>(block.ny[lane]);
         const Across now = across(first, second, nx, ny);
         const Disc &di = grains.disc[i], &dj = grains.disc[j];
-        const double gap = base::norm({dj.x - di.x, dj.y - di.y}) - di.radius - dj.radius;
+        // Along the step's normal, as the sweeps see it: what a grain moved across opens no contact, and the point of a
+        // wall stays where the grain's foot was.
+        const double gap = nx * (dj.x - di.x) + ny * (dj.y - di.y) - di.radius - dj.radius;
         const double mass = static_cast<double>(block.mass[lane]);
         const bool wall = b >= colour.first_wall;
-        const Bounce p = bounce(approach, now, gap, mass, mass / 3, wall ? law.friction_wall : law.friction_grain, law);
+        const Bounce p = bounce(approach, now, static_cast<double>(block.pn[lane]), gap, mass, mass / 3,
+                                wall ? law.friction_wall : law.friction_grain, law);
         if (p.pn == 0) continue;
         const double px = p.pn * nx - p.pt * ny, py = p.pn * ny + p.pt * nx;
         push(first, -px, -py, p.pt);
@@ -112,7 +118,7 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
     const double m = first.inverse_mass + body->inverse_mass, mt = 3 * first.inverse_mass + body->inverse_mass;
     const Disc& disc = grains.disc[c.grain];
     const double gap = nearest_place(*body, {disc.x, disc.y}).distance - disc.radius;
-    const Bounce p = bounce(system.body_approach[k], now, gap, 1 / m, 1 / mt, body->friction, law);
+    const Bounce p = bounce(system.body_approach[k], now, c.pn, gap, 1 / m, 1 / mt, body->friction, law);
     if (p.pn == 0) continue;
     const double px = p.pn * c.nx - p.pt * c.ny, py = p.pn * c.ny + p.pt * c.nx;
     push(grain, -px, -py, p.pt);
