@@ -119,10 +119,15 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
   const double margin = body_speed * law.step + 4 * law.gravity * law.step * law.step + 0.01 * system.smallest_radius;
   const double reach = 6 * law.step * std::max(std::sqrt(fastest), body_speed) + margin;
 
-  // Lists, when they are worn; those of the body wear by its own path too.
-  if (list_is_worn(system, grains, std::min(reach, 0.5 * system.skin))) {
+  // Lists, when they are worn; those of the body wear by its own path too. Two grains that may cross the whole skin
+  // within this step are looked for farther out; as the skin says less than such a list holds, it wears early.
+  const bool leaps = 2 * law.step * std::sqrt(fastest) + margin > system.skin;
+  if (leaps || list_is_worn(system, grains, std::min(reach, 0.5 * system.skin))) {
+    const double skin = system.skin;
+    if (leaps) system.skin = reach;
     list_contacts(system, grains, box);
     if (body) list_body_contacts(*body, grains, 3 * system.skin);
+    system.skin = skin;
     report.rebuilt = true;
   } else if (body && body->listed_travel + body_speed * law.step > system.skin) {
     list_body_contacts(*body, grains, 3 * system.skin);
