@@ -15,14 +15,15 @@ namespace seapile::support {
 inline constexpr double kDensity = 1500;  // [kg/m3], of every grain here
 inline constexpr double kFar = 1e3;       // [m], where a wall is out of the way
 
-/// Discs, not yet enclosed.
-inline grains::Grains grains_from(const std::vector<grains::Disc>& discs) {
+/// Discs, not yet enclosed. `masses`: [kg/m], (discs); empty: those of kDensity.
+inline grains::Grains grains_from(const std::vector<grains::Disc>& discs, const std::vector<double>& masses = {}) {
   grains::Grains grains;
   for (const grains::Disc& d : discs) {
     grains.id.push_back(static_cast<std::int64_t>(grains.id.size()));
     grains.disc.push_back(d);
     grains.mass.push_back(kDensity * std::numbers::pi * d.radius * d.radius);
   }
+  if (!masses.empty()) grains.mass = masses;
   return grains;
 }
 
@@ -44,7 +45,8 @@ inline std::vector<grains::Disc> jittered_lattice(int count, int columns, double
 /// The contact solver with everything it works on.
 template <class Real>
 struct ContactScene {
-  explicit ContactScene(const std::vector<grains::Disc>& discs) : grains(grains_from(discs)) {
+  explicit ContactScene(const std::vector<grains::Disc>& discs, const std::vector<double>& masses = {})
+      : grains(grains_from(discs, masses)) {
     enclose(system, grains);
     totals.feature.resize(2);
   }
