@@ -40,19 +40,23 @@ std::vector<Row> bounces(const Solver& solver, Size) {
     const double speed = std::sqrt(2 * g * drop);
     Worst worst;
     bool rising = false;
-    double top = 0;
-    for (int bounce = 0; bounce <= 5;) {
+    double top = 0, longest = 2 * speed / g;  // of the fall and five bounces, with a margin [s]
+    for (int k = 1; k <= 5; ++k) longest += 3 * std::pow(e, k) * speed / g;
+    int bounce = 0;
+    const auto landed = [&] {
+      const double share = std::pow(e, bounce), v = share * speed;
+      worst.add(fmt::format("e = {}, bounce {}", e, bounce), top, kRadius + drop * share * share, bounce * v * dt);
+    };
+    for (double time = 0; time < longest && bounce <= 5; time += dt) {
       run->step();
       const double vy = run->velocity(0).y;
       if (!rising && vy > 0) rising = true, ++bounce, top = 0;
-      if (!rising) continue;
+      if (!rising || bounce > 5) continue;
       top = std::max(top, run->disc(0).y);
-      if (vy > 0) continue;
-      rising = false;
-      const double share = std::pow(e, bounce), v = share * speed;
-      worst.add(fmt::format("e = {}, bounce {}", e, bounce), top, kRadius + drop * share * share, bounce * v * dt);
-      if (bounce == 5) break;
+      if (vy <= 0) rising = false, landed();
     }
+    // A disc that stays on the base before its fifth bounce has a height of zero there.
+    for (top = kRadius; bounce < 5;) ++bounce, landed();
     rows.push_back(worst.row(fmt::format("height after bounces of e = {}", e), "m",
                              "each rebound takes the speed of the start of its step, which lacks up to g dt"));
   }
