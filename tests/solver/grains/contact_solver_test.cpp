@@ -1,5 +1,5 @@
-// Few discs whose motion is known in closed form (docs/formulation.md 2). A disc resists rolling on a surface with a
-// third of its mass, which gives the thresholds 3 mu.
+// Few discs: what they dissipate, overlap and report (docs/formulation.md 2). Their motion in closed form is in
+// tests/verification.
 #include "solver/grains/contact_solver.h"
 
 #include <gtest/gtest.h>
@@ -31,16 +31,11 @@ struct ContactSolver : testing::Test {
 using Reals = testing::Types<float, double>;
 TYPED_TEST_SUITE(ContactSolver, Reals);
 
-TYPED_TEST(ContactSolver, AFreeGrainFallsAsGravityWants) {
+TYPED_TEST(ContactSolver, AFallDissipatesNothing) {
   ContactScene<TypeParam> scene({{0, 10, 0.02, 0}});
-  scene.set_velocity(0, {0.5, 0});
   scene.run(0.5);
-  // Velocity first, then place: after time t a fall is longer by g h t / 2, h = 5e-5 s, which is subtracted here.
-  const double h = scene.law.step / scene.law.substeps, fall = 0.5 * kGravity * 0.5 * (0.5 + h);
-  EXPECT_NEAR(scene.disc(0).y, 10 - fall, 1e4 * fall * TestFixture::kRounding);
-  EXPECT_NEAR(scene.disc(0).x, 0.25, 1e-6);
-  EXPECT_NEAR(scene.velocity(0).y, -0.5 * kGravity, 1e4 * kGravity * TestFixture::kRounding);
   // What single precision makes of nothing, against the energy of the fall.
+  const double fall = 0.5 * kGravity * 0.5 * 0.5;
   EXPECT_NEAR(scene.totals.dissipation, 0, 1e3 * TestFixture::kRounding * scene.weight() * fall);
 }
 
@@ -57,29 +52,17 @@ TYPED_TEST(ContactSolver, AGrainComesToRestOnTheBaseWhichCarriesItsWeight) {
   EXPECT_NEAR(0.02 - scene.disc(0).y, kGravity / (omega * omega), 1e-3 * kGravity / (omega * omega));
 }
 
-// v = v0 - mu g t while it slides; rolling from t = v0 / (3 mu g) on, with 2 v0 / 3 and without loss.
-TYPED_TEST(ContactSolver, ASlidingDiscStartsToRollWithTwoThirdsOfItsSpeed) {
-  for (const double friction : {0.1, 0.5, 2.0}) {
-    ContactScene<TypeParam> scene({{0, 0.02, 0.02, 0}});
-    scene.law.friction_wall = friction;
-    scene.set_velocity(0, {1, 0});
-    const double rolling = 1 / (3 * friction * kGravity), h = scene.law.step / scene.law.substeps;
-    const int half = static_cast<int>(rolling / 2 / scene.law.step);
-    scene.steps(half);
-    // First order: friction may begin a sub-step late, because the contact must first be pressed.
-    EXPECT_NEAR(scene.velocity(0).x, 1 - friction * kGravity * half * scene.law.step, 3 * friction * kGravity * h);
-    EXPECT_NEAR(scene.spin(0) * 0.02, -2 * friction * kGravity * half * scene.law.step, 6 * friction * kGravity * h);
-    scene.run(rolling);
-    // Rounding of up to 7000 sub-steps of sliding, in single precision.
-    const double tolerance = std::max(1e-5, 1e3 * TestFixture::kRounding);
-    EXPECT_NEAR(scene.velocity(0).x, 2.0 / 3, tolerance);
-    EXPECT_NEAR(scene.spin(0) * 0.02, -2.0 / 3, tolerance);
-    const double speed = scene.velocity(0).x, dissipation = scene.totals.dissipation;
-    scene.run(0.5);
-    // Rolling without resistance: nothing but rounding, over 10^4 sub-steps.
-    EXPECT_NEAR(scene.velocity(0).x, speed, 1e4 * TestFixture::kRounding);
-    EXPECT_NEAR(scene.totals.dissipation, dissipation, 1e4 * TestFixture::kRounding);
-  }
+// Rolling without resistance: nothing but rounding, over 10^4 sub-steps.
+TYPED_TEST(ContactSolver, RollingDissipatesNothing) {
+  ContactScene<TypeParam> scene({{0, 0.02, 0.02, 0}});
+  scene.law.friction_wall = 0.5;
+  scene.set_velocity(0, {1, 0});
+  scene.run(0.2);
+  const double speed = scene.velocity(0).x, dissipation = scene.totals.dissipation;
+  EXPECT_GT(dissipation, 0) << "it slid before it rolled";
+  scene.run(0.5);
+  EXPECT_NEAR(scene.velocity(0).x, speed, 1e4 * TestFixture::kRounding);
+  EXPECT_NEAR(scene.totals.dissipation, dissipation, 1e4 * TestFixture::kRounding);
 }
 
 /// A half plane that falls to the right by an angle, and a disc that lies on it in the origin.
@@ -95,24 +78,6 @@ ContactScene<Real> incline(double angle, double friction) {
   return scene;
 }
 
-TYPED_TEST(ContactSolver, ADiscOnAnInclineRollsBelowTanEqualsThreeMuAndSlidesAbove) {
-  constexpr double kTime = 0.4, kFriction = 0.2;
-  for (const double tangent : {0.05, 0.3, 0.58, 0.62, 1.0, 2.0}) {
-    const double angle = std::atan(tangent), pull = kGravity * std::sin(angle), press = kGravity * std::cos(angle);
-    auto scene = incline<TypeParam>(angle, kFriction);
-    scene.run(kTime);
-    const base::Vec2 v = scene.velocity(0);
-    const double speed = norm(v), surface_speed = -scene.spin(0) * 0.02;
-    const bool rolls = tangent < 3 * kFriction;
-    const double expected = rolls ? 2.0 / 3 * pull * kTime : (pull - kFriction * press) * kTime;
-    const double expected_spin = rolls ? expected : 2 * kFriction * press * kTime;
-    // First order: a start that is late by up to three sub-steps of 5e-5 s in 0.4 s.
-    EXPECT_NEAR(speed, expected, 4e-4 * pull * kTime) << "tan " << tangent;
-    EXPECT_NEAR(surface_speed, expected_spin, 4e-4 * pull * kTime) << "tan " << tangent;
-    EXPECT_NEAR(v.y / v.x, -tangent, 1e-4 * tangent) << "leaves the plane";
-  }
-}
-
 // Exactly: the work of the slip. Slipping from rest for a time T, the contact point has a = g sin - 3 mu g cos.
 TYPED_TEST(ContactSolver, ASlidingDiscDissipatesFrictionTimesSlip) {
   constexpr double kTime = 0.4, kFriction = 0.2;
@@ -122,56 +87,6 @@ TYPED_TEST(ContactSolver, ASlidingDiscDissipatesFrictionTimesSlip) {
   const double slip = 0.5 * (kGravity * std::sin(angle) - 3 * kFriction * press) * kTime * kTime;
   const double expected = kFriction * scene.grains.mass[0] * press * slip;
   EXPECT_NEAR(scene.totals.dissipation, expected, 2e-3 * expected);
-}
-
-/// Ten discs of one column; friction plays no part.
-template <class Real>
-ContactScene<Real> stack() {
-  std::vector<Disc> discs;
-  for (int k = 0; k < 10; ++k) discs.push_back({0, 0.02 + 0.0401 * k, 0.02, 0});
-  return ContactScene<Real>(discs);
-}
-
-TYPED_TEST(ContactSolver, EveryContactOfAStackCarriesWhatStandsAboveIt) {
-  auto scene = stack<TypeParam>();
-  scene.run(2);
-  const double one = scene.grains.mass[0] * kGravity;
-  int seen = 0;
-  for (const TouchingContact& c : scene.touching()) {
-    // Between k and k + 1 there are 9 - k discs above; on the base all ten.
-    const double above = c.second >= 0 ? 9 - c.first : 10;
-    // One sweep per sub-step leaves an error that has decayed to rounding after 40,000 of them.
-    EXPECT_NEAR(c.pn / scene.law.step, above * one, 1e-5 * 10 * one);
-    EXPECT_EQ(c.pt, 0);
-    // A soft contact under a load F gives way by F / (m omega^2), m its effective mass: half a disc's between two.
-    const double load = above * kGravity * (c.second >= 0 ? 2 : 1), omega = angular_frequency(scene.law);
-    EXPECT_NEAR(c.overlap * 0.02, load / (omega * omega), 0.01 * 10 * kGravity / (omega * omega));
-    ++seen;
-  }
-  EXPECT_EQ(seen, 10);
-  for (int k = 0; k < 10; ++k) EXPECT_EQ(scene.disc(k).x, 0) << "a straight column has no reason to bend";
-}
-
-// A disc on two others that touch: it stands when mu >= tan 15 deg = 0.268 between discs and mu >= 0.0893 on the floor.
-// The thresholds are those of statics; 10 % away from them the answer must be clear.
-TYPED_TEST(ContactSolver, APyramidOfThreeStandsOnEnoughFrictionOnly) {
-  struct Case {
-    double grain, floor;
-    bool stands;
-  };
-  for (const Case& c :
-       {Case{0.295, 0.098, true}, {0.241, 10, false}, {10, 0.0804, false}, {0.5, 0.5, true}, {0, 0, false}}) {
-    const double r = 0.02;
-    ContactScene<TypeParam> scene({{-r, r, r, 0}, {r, r, r, 0}, {0, r * (1 + std::sqrt(3.0)), r, 0}});
-    scene.law.friction_grain = c.grain;
-    scene.law.friction_wall = c.floor;
-    scene.run(1);
-    const double sunk = (1 + std::sqrt(3.0)) - scene.disc(2).y / r;
-    if (c.stands)
-      EXPECT_LT(sunk, 0.02) << c.grain << ", " << c.floor;
-    else
-      EXPECT_GT(sunk, 0.5) << c.grain << ", " << c.floor;
-  }
 }
 
 TYPED_TEST(ContactSolver, ACollisionConservesMomentumAndLeavesNoApproach) {
