@@ -131,6 +131,7 @@ class Lister {
   /// Pairs and wall contacts of a tile.
   void find(std::int32_t tile, Group<Real>& group) const {
     const std::int32_t first = tile * kTileGrains, last = std::min(first + kTileGrains, count_);
+    group.pairs.reserve(4 * kTileGrains);
     grid_.find_pairs(first, last, group.pairs);
     for (int wall = 0; wall < 3; ++wall)
       for (std::int32_t i = first; i < last; ++i)

@@ -46,28 +46,32 @@ std::int32_t CellGrid::column(double x) const { return std::min(static_cast<std:
 std::int32_t CellGrid::row(double y) const { return std::min(static_cast<std::int32_t>((y - y0_) / edge_), ny_ - 1); }
 
 void CellGrid::find_pairs(std::int32_t first, std::int32_t last, std::vector<Pair>& pairs) const {
+  std::vector<std::int32_t> found;  // partners of one grain, and behind them what is still to be written over
   for (std::int32_t i = first; i < last; ++i) {
     const Disc& a = discs_[i];
     const double own = a.radius + 0.5 * skin_;
     const std::int32_t cx = column(a.x), cy = row(a.y);
-    const std::size_t begin = pairs.size();
-    // The three cells of a row stand side by side.
+    std::size_t count = 0;
+    // The three cells of a row stand side by side. No branch depends on what is found: it could not be foreseen.
     for (std::int32_t y = std::max(cy - 1, 0); y <= std::min(cy + 1, ny_ - 1); ++y) {
       const std::int32_t from = start_[y * nx_ + std::max(cx - 1, 0)];
       const std::int32_t to = start_[y * nx_ + std::min(cx + 1, nx_ - 1) + 1];
+      if (found.size() < count + static_cast<std::size_t>(to - from)) found.resize(2 * (count + (to - from)));
       for (std::int32_t k = from; k < to; ++k) {
         const Inside& b = inside_[k];
         const double dx = b.x - a.x, dy = b.y - a.y, reach = own + b.reach;
-        if (b.grain > i && dx * dx + dy * dy < reach * reach) pairs.push_back({i, b.grain});
+        found[count] = b.grain;
+        count += static_cast<std::size_t>(b.grain > i) & static_cast<std::size_t>(dx * dx + dy * dy < reach * reach);
       }
     }
     // A handful, by insertion.
-    for (std::size_t p = begin + 1; p < pairs.size(); ++p) {
-      const Pair pair = pairs[p];
+    for (std::size_t p = 1; p < count; ++p) {
+      const std::int32_t grain = found[p];
       std::size_t at = p;
-      for (; at > begin && pair.j < pairs[at - 1].j; --at) pairs[at] = pairs[at - 1];
-      pairs[at] = pair;
+      for (; at > 0 && grain < found[at - 1]; --at) found[at] = found[at - 1];
+      found[at] = grain;
     }
+    for (std::size_t p = 0; p < count; ++p) pairs.push_back({i, found[p]});
   }
 }
 
