@@ -69,7 +69,7 @@ std::vector<Row> weight_on_the_base(const Solver& solver, Size) {
   int resting = 0;
   constexpr int kHeaps = 3;
   for (std::uint64_t seed = 1; seed <= kHeaps; ++seed) {
-    const Heap heap = settle(solver, solver.fast ? 300 : 30, solver.fast ? 14 : 6, seed);
+    const Heap heap = settle(solver, solver.fast ? 300 : solver.slow ? 15 : 30, solver.fast ? 14 : solver.slow ? 4 : 6, seed);
     resting += heap.rests;
     carried.add(fmt::format("packing {}", seed), base_force(heap.forces) / heap.weight, 1, 1e-3);
     const double height = height_of(*heap.run);

@@ -94,7 +94,8 @@ struct Solver {
   std::string name;  ///< letters, digits and underscores
   Method method = Method::soft;
   double rounding = 0;  ///< of one operation on a velocity, as a share
-  bool fast = true;     ///< may be asked for hundreds of grains
+  bool fast = true;     ///< may be asked for hundreds of grains, again and again
+  bool slow = false;    ///< compares all with all
   std::function<std::unique_ptr<Running>(const Setup&)> start;
 };
 
@@ -102,19 +103,18 @@ template <class Real>
 Solver solver(std::string name, bool fast, const std::optional<grains::NonSmooth>& nonsmooth = {}) {
   const double rounding = std::is_same_v<Real, float> ? std::numeric_limits<float>::epsilon()
                                                       : std::numeric_limits<double>::epsilon();
-  return {std::move(name), nonsmooth ? Method::nonsmooth : Method::soft, rounding, fast,
+  return {std::move(name), nonsmooth ? Method::nonsmooth : Method::soft, rounding, fast, std::is_same_v<Real, grains::AllPairs>,
           [nonsmooth](const Setup& setup) { return std::make_unique<SceneRun<Real>>(setup, nonsmooth); }};
 }
 
-/// All that is verified. The non-smooth solvers go far enough that their residual is not what a law sees; without momentum
-/// that takes longer, and less has to do.
+/// All that is verified. The non-smooth solvers go far enough that their residual is not what a law sees.
 inline const std::vector<Solver>& solvers() {
-  static const grains::NonSmooth converged{5000, 1e-9, 1e-3}, near{500, 1e-7, 1e-3};
+  static const grains::NonSmooth converged{5000, 1e-9, 1e-3};
   static const std::vector<Solver> all = {solver<float>("production_single", true),
                                           solver<double>("production_double", true),
                                           solver<double>("nonsmooth", false, converged),
                                           solver<grains::AllPairs>("brute_force", false),
-                                          solver<grains::AllPairs>("brute_force_nonsmooth", false, near)};
+                                          solver<grains::AllPairs>("brute_force_nonsmooth", false, converged)};
   return all;
 }
 

@@ -158,7 +158,7 @@ TEST(ContactLists, AnyNumberOfThreadsMakesTheSameList) {
   const auto discs = support::jittered_lattice(2000, 35, 0.01, 0.02, 6);
   const auto one = listed(discs, box);
   for (const int threads : {2, 3, 7}) {
-    support::ContactScene<float> scene(discs);
+    ContactScene<double> scene(discs);
     scene.box = box;
     list_contacts(scene.system, scene.grains, box, threads);
     EXPECT_TRUE(scene.system.pair == one.system.pair);
@@ -166,7 +166,7 @@ TEST(ContactLists, AnyNumberOfThreadsMakesTheSameList) {
     EXPECT_TRUE(scene.system.blocks.wall_slot == one.system.blocks.wall_slot);
     EXPECT_EQ(scene.system.blocks.bodies, one.system.blocks.bodies);
     ASSERT_EQ(scene.system.blocks.block.size(), one.system.blocks.block.size());
-    const std::size_t bytes = one.system.blocks.block.size() * sizeof(ContactBlock<float>);
+    const std::size_t bytes = one.system.blocks.block.size() * sizeof(ContactBlock<double>);
     EXPECT_EQ(std::memcmp(scene.system.blocks.block.data(), one.system.blocks.block.data(), bytes), 0);
   }
 }
