@@ -24,12 +24,12 @@ from programs import HERE, OUR_USUAL, REFERENCE_STIFFNESS, ROOT, Failed, Scene, 
 from report import print_cost, print_force
 from tables import block_mean, read_csv, write_csv, write_text
 
-COST = ["code", "version", "setting", "ranks", "substeps", "kn", "dt", "simulated", "steps", "cpu", "cpu_per_s",
+COST = ["code", "version", "setting", "ranks", "solves", "kn", "dt", "simulated", "steps", "cpu", "cpu_per_s",
         "wall_per_s", "overlap_p999", "overlap_mean", "overlap_max", "contacts", "force_mean", "force_se",
         "kinetic_energy", "kinetic_energy_far", "tip", "speed", "seed", "solid_fraction", "start", "from", "end"]
 STABLE = ["code", "version", "kn", "dt", "stable", "sound", "kinetic_energy_max", "kinetic_energy_far", "cpu_per_s", "reason"]
-FORCE = ["code", "version", "seed", "solid_fraction", "tip", "speed", "substeps", "kn", "dt", "from", "end", "force_mean",
-         "force_se", "overlap_p999"]
+FORCE = ["code", "version", "seed", "solid_fraction", "tip", "speed", "solves", "kn", "dt", "from", "end", "force_mean",
+         "force_se", "overlap_p999", "residual", "cpu_per_s"]
 TUNE = ["code", "version", "change", "kn", "dt", "steps", "cpu_per_s"]
 # Steps of the search for the largest stable one, at the reference stiffness [s]. The first is the usual one: an eighth of
 # the time that two of the smallest grains touch.
@@ -56,7 +56,8 @@ def scene(options, folder, seed, substeps):
     return Scene(options.peer_scene, folder, {
         "seed": seed, "solid-fraction": options.solid_fraction, "tip": options.tip, "speed": options.speed,
         "start": options.start, "from": options.from_depth, "end": options.end,
-        "substeps": ",".join(str(n) for n in substeps), "moments": options.moments})
+        "substeps": ",".join(str(n) for n in substeps), "moments": options.moments,
+        "sweeps": ",".join(str(n) for n in options.sweeps) or None})
 
 
 def completed(row, code, options, facts):
@@ -69,7 +70,8 @@ def completed(row, code, options, facts):
 
 def our_rows(state, options):
     return [completed(row | {"version": our_version(), "ranks": 1,
-                             "setting": "usual" if row["substeps"] == OUR_USUAL else "other"}, "ours", options, state.facts)
+                             "setting": "usual" if row["solves"] == OUR_USUAL else "other"},
+                      "ours" if row["method"] == "soft" else "nonsmooth", options, state.facts)
             for row in state.ours]
 
 
@@ -140,7 +142,7 @@ def force(options, work):
     if any(r[name] != value for r in rows for name, value in asked.items()):
         raise Failed(f"{path} has rows of another tip, speed or depth: give those, or leave --keep")
     done = {(r["code"], int(r["seed"])) for r in rows}
-    for seed in range(1, options.seeds + 1):
+    for seed in range(options.first, options.seeds + 1):
         lacking = [code for code in ["ours", *options.codes] if (code, seed) not in done]
         if not lacking:
             continue
@@ -153,7 +155,8 @@ def force(options, work):
                 new = [completed(row, code, options, state.facts)]
             rows += [row | {"seed": seed} for row in new]
             write_csv(path, FORCE, rows)
-            said(f"seed {seed}, {code}: {new[-1]['force_mean']:.0f} N/m (block s.e. {new[-1]['force_se']:.0f})")
+            for row in new:
+                said(f"seed {seed}, {row['code']}: {row['force_mean']:.0f} N/m (block s.e. {row['force_se']:.0f})")
         shutil.rmtree(state.folder)
 
 
@@ -194,7 +197,7 @@ def arguments():
         if name == "table":
             continue
         p.add_argument("--peer-scene", default=ROOT / "build/release/bench/peer_scene", type=Path, help="the program")
-        p.add_argument("--codes", type=numbers(str), default=["lammps", "liggghts"], help="peers, with commas")
+        p.add_argument("--codes", type=lambda text: [w for w in text.split(",") if w != "none"], default=["lammps", "liggghts"], help="peers, with commas; none: ours alone")
         p.add_argument("--tip", choices=["conical", "flat"], default="conical")
         p.add_argument("--speed", type=float, default=speed[name], help="of the pile [m/s]")
         p.add_argument("--solid-fraction", type=float, help="target of the bed's preparation [-]")
@@ -204,7 +207,10 @@ def arguments():
         p.add_argument("--moments", type=int, default=25, help="at which overlaps are taken")
         if name == "force":
             p.add_argument("--seeds", type=int, default=8, help="beds: seeds 1 to this")
+            p.add_argument("--first", type=int, default=1, help="the first of the seeds")
             p.add_argument("--dt", type=float, default=2e-5, help="of the peers [s]")
+            p.add_argument("--sweeps", type=numbers(int), default=[],
+                           help="of our non-smooth method, a run for each; its residual is in the table")
             p.add_argument("--keep", action="store_true", help="keep the rows that force.csv has, and add those that it lacks")
         else:
             p.add_argument("--seed", type=int, default=1, help="of the bed")
@@ -216,6 +222,7 @@ def arguments():
             if name == "cost" else p.set_defaults(ranks=[1])
     options = parser.parse_args()
     options.record = HERE / options.machine
+    options.sweeps = getattr(options, "sweeps", [])
     if options.command != "table":
         unknown = set(options.codes) - {"lammps", "liggghts"}
         if unknown:

@@ -2,12 +2,12 @@
 // anybody's grains.
 //
 //   peer_scene ours --out DIR [--seed 1] [--solid-fraction 0.82] [--tip conical] [--speed 0.4]
-//                   [--start 0.55] [--from 0.6] [--end 0.8] [--substeps 5,10,20,40] [--moments 25]
+//                   [--start 0.55] [--from 0.6] [--end 0.8] [--substeps 5,10,20,40] [--sweeps 100,200] [--moments 25]
 //   peer_scene overlaps --state DIR/state.json --dt DT DUMP
 //
 // `ours` prepares the bed, drives the pile to the depth `start`, writes DIR/state.data, pile.stl and state.json, drives
-// on to `end` once for each number of sub-steps, and writes DIR/ours.csv with a row per run and a series of the pile's
-// force beside it. CPU seconds are the process's, from the first record after the state to the last, without what the
+// on to `end` once for each number of sub-steps, and by the non-smooth method (step 1e-4 s) once for each number of sweeps,
+// and writes DIR/ours.csv with a row per run and a series of the pile's force beside it. CPU seconds are the process's, from the first record after the state to the last, without what the
 // analysis of overlaps takes. Overlaps are those of the depths from `from` on, by the same function for every code.
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -34,6 +34,7 @@ using namespace seapile::simulation;
 namespace {
 
 constexpr std::int64_t kStateSubsteps = 10;  // with which the bed is made and the pile driven to the state
+constexpr double kNonSmoothStep = 1e-4;      // [s], the thesis'
 
 struct Options {
   std::filesystem::path out;
@@ -42,6 +43,7 @@ struct Options {
   std::string tip = "conical";
   double speed = 0.4, start = 0.55, from = 0.6, end = 0.8;
   std::vector<std::int64_t> substeps = {5, 10, 20, 40};
+  std::vector<std::int64_t> sweeps;  ///< of the non-smooth method
   int moments = 25;
 };
 
@@ -96,16 +98,25 @@ Start drive_to_start(const scene::SceneSpec& scene, const Bed& bed, const Option
   return start;
 }
 
-/// Impulses of a sub-step are forces times its length: those of another length carry the same forces.
-std::vector<Array> with_substeps(std::vector<Array> checkpoint, std::int64_t substeps) {
-  const double factor = static_cast<double>(kStateSubsteps) / static_cast<double>(substeps);
-  for (Array& array : checkpoint)
+/// The state for a run of another step, sub-step or method: impulses of a solve are forces times its length, and time is
+/// counted in steps.
+std::vector<Array> continued(std::vector<Array> checkpoint, const grains::ContactSpec& contact) {
+  const grains::ContactSpec state;
+  const bool soft = std::holds_alternative<grains::SoftMethod>(contact.method);
+  const double solve = contact.step / static_cast<double>(soft ? contact.substeps : 1);
+  const double factor = solve / (state.step / static_cast<double>(kStateSubsteps));
+  for (Array& array : checkpoint) {
+    if (array.info.name == "clock/step") {
+      auto& steps = std::get<std::vector<std::int64_t>>(array.values)[0];
+      steps = std::llround(static_cast<double>(steps) * state.step / contact.step);
+    }
     if (array.info.name == "blocks/impulse" || array.info.name == "pile/impulse")
       std::visit(
           [&](auto& held) {
             for (auto& v : held) v = static_cast<std::decay_t<decltype(v)>>(static_cast<double>(v) * factor);
           },
           array.values);
+  }
   return checkpoint;
 }
 
@@ -116,6 +127,7 @@ struct Ours {
   double simulated = 0;  ///< [s] that the cost is for
   std::vector<peers::Overlaps> moments;
   double recorded_p999 = 0;  ///< mean of the records' own 99.9th percentile, for comparison
+  double residual = 0;       ///< rms over the records [m/s]
   RunResult result;
 };
 Ours drive_on(const scene::SceneSpec& scene, const Bed& bed, const Start& start, const Options& options) {
@@ -141,14 +153,15 @@ Ours drive_on(const scene::SceneSpec& scene, const Bed& bed, const Start& start,
         peers::overlaps(state.discs, surroundings(scene.bed.domain, outline(scene, options), state.pile_y)));
     analysed = analysed + (Stopwatch::now() - paused);
   };
-  ours.result = run(scene, {}, bed, {}, with_substeps(start.checkpoint, scene.contact.substeps), {start.record}, hooks);
+  ours.result = run(scene, {}, bed, {}, continued(start.checkpoint, scene.contact), {start.record}, hooks);
   if (ours.result.outcome != Outcome::completed) throw std::runtime_error(ours.result.reason);
   ours.cost = end - begin;
   ours.simulated = ours.records.back().time - ours.records.front().time;
   double count = 0;
   for (const Record& r : ours.records)
-    if (r.depth >= options.from) ours.recorded_p999 += r.overlap_p999, ++count;
+    if (r.depth >= options.from) ours.recorded_p999 += r.overlap_p999, ours.residual += r.residual * r.residual, ++count;
   ours.recorded_p999 /= count;
+  ours.residual = std::sqrt(ours.residual / count);
   return ours;
 }
 
@@ -190,20 +203,29 @@ void run_ours(const Options& options) {
 
   auto table = fmt::output_file((options.out / "ours.csv").string());
   table.print(
-      "substeps,dt,simulated,steps,cpu,wall,overlap_p999,overlap_mean,overlap_max,contacts,recorded_p999,kinetic_"
-      "energy\n");
-  for (const std::int64_t substeps : options.substeps) {
-    scene.contact.substeps = substeps;
+      "method,solves,dt,simulated,steps,cpu,wall,overlap_p999,overlap_mean,overlap_max,contacts,recorded_p999,residual,"
+      "kinetic_energy\n");
+  // `solves`: sub-steps of a step, or sweeps of one.
+  const auto drive = [&](const char* method, std::int64_t solves, double dt) {
     const Ours ours = drive_on(scene, bed, start, options);
     const peers::Overlaps o = peers::over_moments(ours.moments);
-    table.print("{},{:g},{:.6g},{:.0f},{:.4f},{:.4f},{:.5g},{:.5g},{:.5g},{:.0f},{:.5g},{:.4g}\n", substeps,
-                scene.contact.step / static_cast<double>(substeps), ours.simulated,
-                ours.simulated / scene.contact.step * static_cast<double>(substeps), ours.cost.cpu, ours.cost.wall,
-                o.p999, o.mean, o.max, o.contacts, ours.recorded_p999, ours.records.back().kinetic_energy);
+    table.print("{},{},{:g},{:.6g},{:.0f},{:.4f},{:.4f},{:.5g},{:.5g},{:.5g},{:.0f},{:.5g},{:.4g},{:.4g}\n", method, solves,
+                dt, ours.simulated, ours.simulated / dt, ours.cost.cpu, ours.cost.wall, o.p999, o.mean, o.max, o.contacts,
+                ours.recorded_p999, ours.residual, ours.records.back().kinetic_energy);
     table.flush();
-    auto series = fmt::output_file((options.out / fmt::format("force_{}.csv", substeps)).string());
+    auto series = fmt::output_file((options.out / fmt::format("force_{}_{}.csv", method, solves)).string());
     series.print("depth,span,force\n");
     for (const Record& r : ours.records) series.print("{:.9g},{:.9g},{:.9g}\n", r.depth, r.span, pile_force(r));
+  };
+  for (const std::int64_t substeps : options.substeps) {
+    scene.contact.substeps = substeps;
+    drive("soft", substeps, scene.contact.step / static_cast<double>(substeps));
+  }
+  scene.contact = {};
+  scene.contact.step = kNonSmoothStep;
+  for (const std::int64_t sweeps : options.sweeps) {
+    scene.contact.method = grains::NonSmoothMethod{sweeps, 0};
+    drive("nonsmooth", sweeps, kNonSmoothStep);
   }
 }
 
@@ -250,6 +272,9 @@ int main(int argc, char** argv) {
   ours->add_option("--from", options.from, "depth from which forces and overlaps count [m]");
   ours->add_option("--end", options.end, "depth at the end [m]");
   ours->add_option("--substeps", options.substeps, "per step of 5e-4 s")->delimiter(',')->check(CLI::Range(1, 1000));
+  ours->add_option("--sweeps", options.sweeps, "of the non-smooth method, per step of 1e-4 s")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 100'000));
   ours->add_option("--moments", options.moments, "at which overlaps are taken")->check(CLI::Range(1, 1000));
 
   std::filesystem::path state;

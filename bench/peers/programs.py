@@ -70,7 +70,7 @@ def execute(command, log):
 
 
 def rows_of(text):
-    return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(io.StringIO(text))]
+    return [{k: v if k == "method" else float(v) for k, v in row.items()} for row in csv.DictReader(io.StringIO(text))]
 
 
 class Scene:
@@ -84,10 +84,11 @@ class Scene:
         self.facts = json.loads((folder / "state.json").read_text())
         self.ours = rows_of((folder / "ours.csv").read_text())
         for row in self.ours:
-            series = rows_of((folder / f"force_{row['substeps']:.0f}.csv").read_text())
-            if not 0.75 < row["overlap_p999"] / row["recorded_p999"] < 1.33:
-                raise Failed(f"the overlaps of {row['substeps']:.0f} sub-steps, {row['overlap_p999']}, contradict our records, "
-                             f"{row['recorded_p999']}")
+            name = f"{row['method']}_{row['solves']:.0f}"
+            series = rows_of((folder / f"force_{name}.csv").read_text())
+            # Of the non-smooth method next to nothing overlaps: there is nothing to compare.
+            if row["method"] == "soft" and not 0.75 < row["overlap_p999"] / row["recorded_p999"] < 1.33:
+                raise Failed(f"the overlaps of {name}, {row['overlap_p999']}, contradict our records, {row['recorded_p999']}")
             row["forces"] = [(r["depth"], r["span"], r["force"]) for r in series]
 
     def overlaps(self, dump, dt):
