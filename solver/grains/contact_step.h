@@ -8,7 +8,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <span>
+#include <vector>
 
 #include "solver/base/profile.h"
 #include "solver/grains/contact_kernels.h"
@@ -103,9 +105,23 @@ class Share {
  public:
   Share(const ContactBlocks<Real>& blocks, std::size_t grain_count, Meeting& meeting)
       : blocks_(blocks), meeting_(meeting), me_(omp_get_thread_num()), all_(omp_get_num_threads()), groups_(first_point(grain_count) / 4) {
+    // Tiles are weighed by the blocks that worked in the step before, so that threads seldom wait for each other.
     const std::int32_t tiles = tile_count(grain_count);
-    first_tile = tiles * me_ / all_;
-    last_tile = tiles * (me_ + 1) / all_;
+    std::vector<std::int64_t> end(tiles);
+    for (std::int32_t tile = 0; tile < tiles; ++tile) {
+      const auto active = blocks.active.begin();
+      end[tile] = (tile > 0 ? end[tile - 1] : 0) + 8 +
+                  std::accumulate(active + first_block(tile), active + first_block(tile + 1), std::int64_t{0});
+    }
+    const auto first_of = [&](int thread) {
+      const std::int64_t share = end.back() * thread / all_;
+      std::int32_t tile = 0;
+      while (tile < tiles && (tile > 0 ? end[tile - 1] : 0) + end[tile] < 2 * share) ++tile;
+      return thread == all_ ? tiles : tile;
+    };
+    first_tile = first_of(me_);
+    last_tile = first_of(me_ + 1);
+    meet();  // Detection changes what was weighed.
   }
 
   std::int32_t first_tile = 0, last_tile = 0;
@@ -143,6 +159,24 @@ class Share {
   int me_, all_;
   std::int32_t groups_;
 };
+
+/// Detection, by one thread of a team: clears the velocity changes of its grains and calls refresh(first, last) for its
+/// blocks, colour by colour where they share grains with others'.
+template <class Real>
+void detect(const Share<Real>& share, ContactSystem<Real>& system, std::size_t grain_count, auto&& refresh) {
+  const ContactBlocks<Real>& blocks = system.blocks;
+  for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
+    for (std::int32_t i = 4 * share.first_group(tile); i < 4 * share.first_group(tile + 1); ++i)
+      system.before[i] = {0, 0, 0, system.before[i].half_mass};
+    refresh(share.first_block(tile), share.first_block(tile + 1));
+  }
+  share.meet();
+  const auto colours = static_cast<std::int32_t>(blocks.colour.size());
+  for (std::int32_t colour = blocks.tile_colour[tile_count(grain_count)]; colour < colours; ++colour) {
+    share.between(colour, [&](std::int32_t, std::int32_t first, std::int32_t last) { refresh(first, last); });
+    share.meet();
+  }
+}
 
 /// Adds the seconds since the last lap to a part; only the first thread of a team measures.
 class Laps {

@@ -203,16 +203,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
     };
 
     // Detection: normals, gaps, what is asked of each contact, and what the kept impulses do.
-    for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
-      for (std::int32_t i = 4 * share.first_group(tile); i < 4 * share.first_group(tile + 1); ++i)
-        system.before[i] = {0, 0, 0, system.before[i].half_mass};
-      refresh(share.first_block(tile), share.first_block(tile + 1));
-    }
-    share.meet();
-    for (std::int32_t colour = first_between; colour < colours; ++colour) {
-      share.between(colour, [&](std::int32_t, std::int32_t first, std::int32_t last) { refresh(first, last); });
-      share.meet();
-    }
+    detect(share, system, grains.count(), refresh);
 #pragma omp master
     if (body) {
       detect_body_contacts(*body, grains, system);
