@@ -184,5 +184,17 @@ TYPED_TEST(ContactSolver, OverlapStatisticsAreThoseOfTheSortedOverlaps) {
   EXPECT_GT(sorted_overlaps(scene).size(), 1000u) << "the bed is too small for the 99.9 % to be told from the largest";
 }
 
+// A stack, where no overlap is large beside their mean: the smallest is that of the upper two, which are looked at first.
+TYPED_TEST(ContactSolver, TheLargestOverlapIsFoundWhereAllAreAlike) {
+  ContactScene<TypeParam> scene({{0, 0.10, 0.02, 0}, {0, 0.06, 0.02, 0}, {0, 0.02, 0.02, 0}});
+  scene.run(0.5);
+  const std::vector<double> sorted = sorted_overlaps(scene);
+  ASSERT_EQ(sorted.size(), 3u);
+  ASSERT_LT(sorted.front(), 2 * sorted.back() + sorted[1]) << "none stands out";
+  const OverlapStatistics o = overlaps(scene.system, scene.grains, nullptr);
+  EXPECT_EQ(o.max, sorted.front());
+  EXPECT_EQ(o.p999, sorted.front());
+}
+
 }  // namespace
 }  // namespace seapile::grains
