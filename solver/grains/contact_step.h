@@ -78,22 +78,26 @@ std::int32_t chunk_count(const ContactBlocks<Real>& blocks, std::int32_t colour)
 /// microseconds of work away from the next, so a thread looks for a while before it asks the system to be woken.
 class Meeting {
  public:
+  explicit Meeting(int looks = 20'000) : looks_(looks) {}
+
   /// Waits until all of so many threads have come.
   void wait(int threads) {
     const unsigned round = round_.load(std::memory_order_relaxed);
     if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads) {
       arrived_.store(0, std::memory_order_relaxed);
       round_.store(round + 1, std::memory_order_release);
+      // Who is asleep is asked after the new round is seen by all: a thread that lies down between would sleep on.
+      std::atomic_thread_fence(std::memory_order_seq_cst);
       round_.notify_all();
       return;
     }
-    for (int look = 0; look < kLooks; ++look)
+    for (int look = 0; look < looks_; ++look)
       if (round_.load(std::memory_order_acquire) != round) return;
     round_.wait(round, std::memory_order_acquire);
   }
 
  private:
-  static constexpr int kLooks = 20'000;
+  int looks_;
   alignas(64) std::atomic<int> arrived_ = 0;
   alignas(64) std::atomic<unsigned> round_ = 0;
 };
