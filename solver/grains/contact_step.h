@@ -8,7 +8,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -109,14 +108,12 @@ class Share {
  public:
   Share(const ContactBlocks<Real>& blocks, std::size_t grain_count, Meeting& meeting)
       : blocks_(blocks), meeting_(meeting), me_(omp_get_thread_num()), all_(omp_get_num_threads()), groups_(first_point(grain_count) / 4) {
-    // Tiles are weighed by the blocks that worked in the step before, so that threads seldom wait for each other.
+    // Tiles are weighed by their blocks, which stay from one list to the next: a tile that changed hands at every step
+    // would be fetched anew at every step.
     const std::int32_t tiles = tile_count(grain_count);
     std::vector<std::int64_t> end(tiles);
-    for (std::int32_t tile = 0; tile < tiles; ++tile) {
-      const auto active = blocks.active.begin();
-      end[tile] = (tile > 0 ? end[tile - 1] : 0) + 8 +
-                  std::accumulate(active + first_block(tile), active + first_block(tile + 1), std::int64_t{0});
-    }
+    for (std::int32_t tile = 0; tile < tiles; ++tile)
+      end[tile] = (tile > 0 ? end[tile - 1] : 0) + 8 + first_block(tile + 1) - first_block(tile);
     const auto first_of = [&](int thread) {
       const std::int64_t share = end.back() * thread / all_;
       std::int32_t tile = 0;
@@ -125,7 +122,6 @@ class Share {
     };
     first_tile = first_of(me_);
     last_tile = first_of(me_ + 1);
-    meet();  // Detection changes what was weighed.
   }
 
   std::int32_t first_tile = 0, last_tile = 0;
