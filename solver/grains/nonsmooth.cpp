@@ -160,8 +160,8 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   std::int32_t between_chunks = 0;
   for (std::int32_t colour = first_between; colour < colours; ++colour) between_chunks += chunk_count(blocks, colour);
   system.iterate.resize(blocks.block.size());
-  std::vector<SolveSums> sums(first_between + between_chunks);
-  std::vector<BodySums> unused(tiles);  // begin() accounts for the warm start, which is no work of its own here
+  std::vector<SolveSums> sums(first_between + between_chunks + 1);  // the last one: of the body
+  system.body_sums.assign(tiles, {});  // begin() fills them; the warm start is no work of its own here
   system.path.assign(tiles, 0);
   const Nearness near{closing.margin, dt, system.closing, closing.reach};
 
@@ -169,7 +169,6 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
                                  : body             ? body->velocity
                                                     : base::Vec2{};
   base::Vec2 old_body_velocity;
-  SolveSums of_body;
   Momentum nesterov;
   double momentum = 0;
   bool solved = false;
@@ -217,7 +216,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
     share.meet();
     for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile)
       kernel.begin(system.group.data(), system.before.data(), share.first_group(tile), share.first_group(tile + 1),
-                   static_cast<Real>(dt), static_cast<Real>(law.gravity), &unused[tile]);
+                   static_cast<Real>(dt), static_cast<Real>(law.gravity), &system.body_sums[tile]);
     laps.lap(in_detection);
 
     while (!solved) {
@@ -245,12 +244,10 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
           const base::Vec2 now = body->velocity;
           if (body_path.empty()) body->velocity = now + momentum * (now - old_body_velocity);
           old_body_velocity = now;
-          solve_body(*body, system, momentum, of_body);
+          solve_body(*body, system, momentum, sums.back());
         }
-        sums.push_back(of_body);
         const double change = rms(sum_of(sums));
-        sums.assign(sums.size() - 1, {});
-        of_body = {};
+        std::ranges::fill(sums, SolveSums{});
         momentum = nesterov.next(change);
         solved = ++report.sweeps >= law.nonsmooth->sweeps || change <= law.nonsmooth->tolerance;
       }
@@ -283,13 +280,12 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   }
 
   if (body) {
-    const base::Vec2 felt = assess_body(*body, body_before, system, of_body, totals);
+    const base::Vec2 felt = assess_body(*body, body_before, system, sums.back(), totals);
     totals.body_work -= 0.5 * dot(felt, body_before + body->velocity);
     body->moved = dt * body->velocity;
     move_body(*body);
   }
   close_step(system, totals, report);
-  sums.push_back(of_body);
   const SolveSums sum = sum_of(sums);
   totals.dissipation -= sum.work;
   report.residual = rms(sum);

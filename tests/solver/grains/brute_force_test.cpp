@@ -75,7 +75,7 @@ TEST(BruteForce, AGrainThatSlidesAndRollsOnTheBaseMovesAlike) {
   scene.law.friction_wall = 0.4;
   scene.set_velocity(0, {1, 0});
   expect_alike(scene, 1000);
-  EXPECT_NEAR(scene.velocity(0).x, 2.0 / 3, 0.1);
+  EXPECT_NEAR(scene.velocity(0).x, 2.0 / 3, 1e-3);
 }
 
 TEST(BruteForce, AGrainPushedAlongByAWedgeMovesAlike) {
@@ -130,7 +130,7 @@ TEST(BruteForce, ManyContactsOfTheirOwnMoveAlike) {
     auto reference = twin(fast);
     fast.step();
     EXPECT_EQ(fast.system.pair.size(), 30u);
-    EXPECT_GT(fast.touching().size(), 30u);
+    EXPECT_GT(fast.touching().size(), law.nonsmooth ? 30u : 50u);
     reference.step();
     for (int k = 0; k < 30; ++k) {
       ASSERT_LT(largest_difference(fast, reference), 1e-12) << "step " << k;

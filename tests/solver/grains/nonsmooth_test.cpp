@@ -82,8 +82,7 @@ TEST(NonSmooth, WithoutFrictionAnyOrderGivesTheSameVelocities) {
 // The conditions themselves, contact by contact, at the end of a converged step with friction.
 TEST(NonSmooth, SignoriniAndCoulombHoldAtEveryContact) {
   const auto scene = resting_heap(0.5);
-  const auto& system = scene.system;
-  int sticking = 0, sliding = 0, touching = 0;
+  int sticking = 0, sliding = 0;
   ContactScene<double> shaken = scene;
   for (int i = 0; i < 60; i += 7) shaken.set_velocity(i, {0.05, 0.1});
   shaken.law.nonsmooth = {100'000, 1e-13, 1e-3};
@@ -105,7 +104,6 @@ TEST(NonSmooth, SignoriniAndCoulombHoldAtEveryContact) {
       const double cone = (wall ? 0 : 0.5) * c.pn[lane];
       EXPECT_LE(std::abs(c.pt[lane]), cone * (1 + 1e-12));
       if (c.pn[lane] == 0 || wall) continue;
-      ++touching;
       if (std::abs(c.pt[lane]) < 0.999 * cone) {
         EXPECT_NEAR(vt, 0, 1e-9);
         ++sticking;
@@ -117,11 +115,10 @@ TEST(NonSmooth, SignoriniAndCoulombHoldAtEveryContact) {
   }
   EXPECT_GT(sticking, 20);
   EXPECT_GT(sliding, 0);
-  EXPECT_EQ(system.blocks.bodies, scene.system.blocks.bodies);
 }
 
-// What is reported is what the brute-force solver finds from the same state, where no sweep helps: it counts all pairs.
-TEST(NonSmooth, TheResidualIsTheNaturalMapsAndFallsWithTheSweeps) {
+// That it is the natural map's, contact_kernels_test.cpp says lane by lane.
+TEST(NonSmooth, TheResidualFallsWithTheSweeps) {
   auto scene = resting_heap(0.5);
   for (int i = 0; i < 60; i += 5) scene.set_velocity(i, {0.1, -0.1});
   double last = std::numeric_limits<double>::infinity();
