@@ -48,7 +48,7 @@ Cost measured(Work&& work) {
   return {clock, cpu_seconds() - cpu, std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count()};
 }
 
-const char* const kParts[] = {"neighbour list", "contact detection", "sweeps in tiles", "sweeps between tiles", "pile contacts", "places"};
+const char* const kParts[] = {"neighbour list", "contact detection", "sweeps", "waiting", "pile contacts", "places"};
 
 void row(const std::string& run, double substep, int threads, double simulated, const Cost& cost, double contact_substeps,
          double overlap, double mean_force, const std::vector<ProfileEntry>& profile) {

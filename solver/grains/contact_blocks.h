@@ -1,8 +1,8 @@
 // Contacts in blocks of sixteen.
 //
-// The contacts of one colour share no moving body, so the sixteen contacts of a block are solved at once. The grains are
-// cut into tiles of neighbours that fit the nearest cache; a tile's own contacts are coloured among themselves and belong
-// to one thread, contacts between tiles are coloured together and shared out. Which thread does what never changes a bit.
+// The contacts of one colour share no moving body, so the sixteen contacts of a block are solved at once. Colours are given
+// within each region of the bed (regions.h): a tile of neighbours that fits the nearest cache, or the contacts across the cut
+// between two halves. A region belongs to one thread. Which thread does what never changes a bit.
 //
 // Blocks live from one rebuild of the neighbour list to the next; only normal, gap and impulses change in between. A
 // block has sixteen lanes on every machine: narrower registers take it in pieces, with the same operations per lane.
@@ -56,9 +56,6 @@ struct alignas(64) StepImpulse {
 /// Which wall a grain touches.
 enum class Wall : std::int32_t { left = 0, right = 1, base = 2 };
 
-/// Grains of a tile: its bodies (24 KB in single precision) stay in the nearest cache during a sweep.
-inline constexpr std::int32_t kTileGrains = 512;
-
 /// One colour: blocks [first, last), of which [first_wall, last) hold wall contacts.
 struct Colour {
   std::int32_t first = 0, first_wall = 0, last = 0;
@@ -68,8 +65,8 @@ struct Colour {
 template <class Real>
 struct ContactBlocks {
   base::AlignedVector<ContactBlock<Real>> block;
-  std::vector<Colour> colour;              ///< of the tiles one after the other, then of the contacts between tiles
-  std::vector<std::int32_t> tile_colour;   ///< first colour of each tile, (tiles + 1); from the last one on: between tiles
+  std::vector<Colour> colour;              ///< of the regions one after the other
+  std::vector<std::int32_t> region_colour; ///< first colour of each region, and the end: (regions + 1)
   std::vector<std::uint8_t> active;        ///< (blocks): some contact may touch during this step
   std::vector<double> wake;                ///< (blocks): the closing at which a resting block is looked at again [m]
   std::int32_t bodies = 0;           ///< grains, gap, wall points, fillers

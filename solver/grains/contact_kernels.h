@@ -12,9 +12,6 @@
 
 namespace seapile::grains {
 
-/// Blocks between tiles that are shared out together. Fixed, so that sums do not depend on the number of threads.
-inline constexpr int kBlocksPerChunk = 4;
-
 /// Softness of a contact at sub-step h: frequency f, damping ratio zeta (Catto, Box2D v3; formulation.md 2.3).
 template <class Real>
 struct Softness {

@@ -7,6 +7,9 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <utility>
+
+#include "solver/grains/share.h"
 
 namespace seapile::grains {
 namespace {
@@ -51,31 +54,28 @@ class Colouring {
 
   template <class Real>
   std::int32_t next(const Candidate<Real>& contact) {
-    Used& a = used_[contact.i - first_];
-    Used* b = contact.wall ? nullptr : &used_[contact.j - first_];
-    const std::uint64_t taken = a.low | (b ? b->low : 0);
+    std::uint64_t& a = used_[contact.i - first_];
+    std::uint64_t* b = contact.wall ? nullptr : &used_[contact.j - first_];
+    const std::uint64_t taken = a | (b ? *b : 0);
     if (~taken != 0) {
       const std::uint64_t bit = ~taken & (taken + 1);
-      a.low |= bit;
-      if (b) b->low |= bit;
+      a |= bit;
+      if (b) *b |= bit;
       return std::countr_zero(bit);
     }
     // A crowd: grains of very different sizes.
     for (std::int32_t colour = 64;; ++colour) {
-      if (a.high.contains(colour) || (b && b->high.contains(colour))) continue;
-      a.high.insert(colour);
-      if (b) b->high.insert(colour);
+      if (beyond_.contains({contact.i, colour}) || (b && beyond_.contains({contact.j, colour}))) continue;
+      beyond_.insert({contact.i, colour});
+      if (b) beyond_.insert({contact.j, colour});
       return colour;
     }
   }
 
  private:
-  struct Used {
-    std::uint64_t low = 0;        ///< colours below 64
-    std::set<std::int32_t> high;  ///< the others
-  };
   std::int32_t first_;
-  std::vector<Used> used_;
+  std::vector<std::uint64_t> used_;                          ///< colours below 64, a bit each
+  std::set<std::pair<std::int32_t, std::int32_t>> beyond_;   ///< grain and colour, for the others
 };
 
 /// Near contacts first: they fill the first blocks of few colours, and blocks of far ones rest until they are needed.
@@ -89,23 +89,28 @@ void sort_by_distance(std::vector<Candidate<Real>>& contacts, std::vector<Candid
   contacts.swap(scratch);
 }
 
-/// The contacts of a tile, or those between tiles, while they are found and put into blocks.
+/// What is found from a tile's grains on.
 template <class Real>
-struct Group {
-  std::vector<Pair> pairs;                          ///< whose first grain is in the tile, ascending
-  std::array<std::vector<std::int32_t>, 3> walls;   ///< grains of the tile at each wall, ascending
-  std::vector<Candidate<Real>> contacts, crossing;  ///< own, and with other tiles
-  std::vector<std::int32_t> colour;                 ///< (contacts)
-  std::vector<std::array<std::int32_t, 2>> members; ///< per colour: contacts of grains, with walls
+struct TileList {
+  std::vector<Pair> pairs;                         ///< whose first grain is in the tile, ascending
+  std::array<std::vector<std::int32_t>, 3> walls;  ///< grains of the tile at each wall, ascending
   std::int32_t first_pair = 0;
   std::array<std::int32_t, 3> first_wall{};
+  std::vector<Candidate<Real>> own;                ///< of pairs within the tile, then of walls
+  std::vector<Candidate<Real>> crossing;           ///< of pairs with grains of later tiles
+  std::vector<std::int32_t> crossing_region;       ///< to which those belong
+};
+
+/// The contacts of a region while they are coloured and put into blocks.
+template <class Real>
+struct Group {
+  std::vector<Candidate<Real>> contacts;            ///< near ones first
+  std::vector<std::int32_t> colour;                 ///< (contacts)
+  std::vector<std::array<std::int32_t, 2>> members; ///< per colour: contacts of grains, with walls
   std::int32_t blocks = 0, empty_lanes = 0, first_block = 0, first_colour = 0, first_filler = 0;
 
   void give_colours(std::int32_t first_grain, std::int32_t grain_count) {
     Colouring colouring(first_grain, grain_count);
-    colour.clear();
-    members.clear();
-    blocks = empty_lanes = 0;
     for (const Candidate<Real>& c : contacts) {
       const std::int32_t k = colouring.next(c);
       if (static_cast<std::size_t>(k) >= members.size()) members.resize(k + 1);
@@ -125,45 +130,65 @@ template <class Real>
 class Lister {
  public:
   Lister(const ContactSystem<Real>& system, const Grains& grains, const Box& box)
-      : old_(system), grains_(grains), box_(box), count_(static_cast<std::int32_t>(grains.count())),
+      : old_(system), regions_(system.regions), grains_(grains), box_(box),
         grid_({grains.disc.data(), grains.count()}, system.skin) {}
 
   /// Pairs and wall contacts of a tile.
-  void find(std::int32_t tile, Group<Real>& group) const {
-    const std::int32_t first = tile * kTileGrains, last = std::min(first + kTileGrains, count_);
-    group.pairs.reserve(4 * kTileGrains);
-    grid_.find_pairs(first, last, group.pairs);
+  void find(std::int32_t tile, TileList<Real>& list) const {
+    const std::int32_t first = regions_.first_grain(tile), last = regions_.first_grain(tile + 1);
+    list.pairs.reserve(4 * kTileGrains);
+    grid_.find_pairs(first, last, list.pairs);
     for (int wall = 0; wall < 3; ++wall)
       for (std::int32_t i = first; i < last; ++i)
-        if (gap(grains_.disc[i], kWalls[wall], box_) < old_.skin) group.walls[wall].push_back(i);
+        if (gap(grains_.disc[i], kWalls[wall], box_) < old_.skin) list.walls[wall].push_back(i);
   }
 
   /// Contacts of a tile from its pairs and walls, with the impulses of those that stay.
-  void collect(std::int32_t tile, Group<Real>& group) const {
+  void collect(std::int32_t tile, TileList<Real>& list) const {
     // Old and new lists are both ascending.
-    auto old = std::lower_bound(old_.pair.begin(), old_.pair.end(), Pair{tile * kTileGrains, -1});
-    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
-      const Pair pair = group.pairs[p];
+    auto old = std::lower_bound(old_.pair.begin(), old_.pair.end(), Pair{regions_.first_grain(tile), -1});
+    for (std::size_t p = 0; p < list.pairs.size(); ++p) {
+      const Pair pair = list.pairs[p];
       while (old != old_.pair.end() && *old < pair) ++old;
-      Candidate<Real> c{pair.i, pair.j, group.first_pair + static_cast<std::int32_t>(p), 0, false, 0, 0};
+      Candidate<Real> c{pair.i, pair.j, list.first_pair + static_cast<std::int32_t>(p), 0, false, 0, 0};
       if (old != old_.pair.end() && *old == pair) keep_impulse(old_.pair_slot[old - old_.pair.begin()], c);
       c.distance = c.pn > 0 ? 0 : distance_of(pair);
-      (pair.j / kTileGrains == tile ? group.contacts : group.crossing).push_back(c);
+      const std::int32_t other = regions_.tile_of(pair.j);
+      if (other == tile) {
+        list.own.push_back(c);
+      } else {
+        list.crossing.push_back(c);
+        list.crossing_region.push_back(regions_.holding(tile, other));
+      }
     }
     for (int wall = 0; wall < 3; ++wall) {
       std::size_t old_wall = 0;
       const auto before = [&](std::size_t k) { return WallContact{old_.blocks.wall[k], old_.blocks.wall_grain[k]}; };
-      for (std::size_t w = 0; w < group.walls[wall].size(); ++w) {
-        const WallContact contact{kWalls[wall], group.walls[wall][w]};
+      for (std::size_t w = 0; w < list.walls[wall].size(); ++w) {
+        const WallContact contact{kWalls[wall], list.walls[wall][w]};
         while (old_wall < old_.blocks.wall.size() && before(old_wall) < contact) ++old_wall;
-        Candidate<Real> c{contact.grain, 0, group.first_wall[wall] + static_cast<std::int32_t>(w), 0, true, 0, 0};
+        Candidate<Real> c{contact.grain, 0, list.first_wall[wall] + static_cast<std::int32_t>(w), 0, true, 0, 0};
         if (old_wall < old_.blocks.wall.size() && before(old_wall) == contact)
           keep_impulse(old_.blocks.wall_slot[old_wall], c);
         const double g = gap(grains_.disc[contact.grain], contact.wall, box_);
         while (c.pn == 0 && c.distance < kDistances - 1 && g >= kDistance[c.distance] * old_.skin) ++c.distance;
-        group.contacts.push_back(c);
+        list.own.push_back(c);
       }
     }
+  }
+
+  /// Contacts of a region, in colours.
+  void group(std::int32_t region, const std::vector<TileList<Real>>& lists, Group<Real>& group) const {
+    const Region& r = regions_[region];
+    if (r.is_tile()) group.contacts = lists[r.first_tile].own;
+    else
+      for (std::int32_t tile = r.first_tile; tile < r.last_tile; ++tile)
+        for (std::size_t k = 0; k < lists[tile].crossing.size(); ++k)
+          if (lists[tile].crossing_region[k] == region) group.contacts.push_back(lists[tile].crossing[k]);
+    std::vector<Candidate<Real>> scratch;
+    sort_by_distance(group.contacts, scratch);
+    const std::int32_t first = regions_.first_grain(r.first_tile);
+    group.give_colours(first, regions_.first_grain(r.last_tile) - first);
   }
 
  private:
@@ -180,9 +205,9 @@ class Lister {
   }
 
   const ContactSystem<Real>& old_;
+  const Regions& regions_;
   const Grains& grains_;
   const Box& box_;
-  std::int32_t count_;
   CellGrid grid_;
 };
 
@@ -225,47 +250,34 @@ void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& s
 
 template <class Real>
 void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, int threads) {
-  const std::int32_t tiles = tile_count(grains.count());
-  const auto in_parallel = [&](auto&& work) {
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (std::int32_t tile = 0; tile < tiles; ++tile) work(tile);
-  };
+  const Regions& regions = system.regions;
+  const std::int32_t tiles = regions.tiles();
   const Lister<Real> lister(system, grains, box);
-  std::vector<Group<Real>> groups(tiles + 1);  // the last one: between tiles
-  in_parallel([&](std::int32_t tile) { lister.find(tile, groups[tile]); });
+  std::vector<TileList<Real>> lists(tiles);
+  for_tiles(regions, threads, [&](std::int32_t tile) { lister.find(tile, lists[tile]); });
 
   // Numbers of pairs and wall contacts: pairs by tile, walls by wall and then by tile, so that both lists ascend.
   std::int32_t pairs = 0, walls = 0;
-  for (std::int32_t tile = 0; tile < tiles; ++tile) {
-    groups[tile].first_pair = pairs;
-    pairs += static_cast<std::int32_t>(groups[tile].pairs.size());
+  for (TileList<Real>& list : lists) {
+    list.first_pair = pairs;
+    pairs += static_cast<std::int32_t>(list.pairs.size());
   }
   for (int wall = 0; wall < 3; ++wall)
-    for (std::int32_t tile = 0; tile < tiles; ++tile) {
-      groups[tile].first_wall[wall] = walls;
-      walls += static_cast<std::int32_t>(groups[tile].walls[wall].size());
+    for (TileList<Real>& list : lists) {
+      list.first_wall[wall] = walls;
+      walls += static_cast<std::int32_t>(list.walls[wall].size());
     }
 
-  in_parallel([&](std::int32_t tile) {
-    Group<Real>& group = groups[tile];
-    lister.collect(tile, group);
-    std::vector<Candidate<Real>> scratch;
-    sort_by_distance(group.contacts, scratch);
-    group.give_colours(tile * kTileGrains, kTileGrains);
-  });
-  Group<Real>& between = groups[tiles];
-  for (std::int32_t tile = 0; tile < tiles; ++tile)
-    between.contacts.insert(between.contacts.end(), groups[tile].crossing.begin(), groups[tile].crossing.end());
-  std::vector<Candidate<Real>> scratch;
-  sort_by_distance(between.contacts, scratch);
-  between.give_colours(0, static_cast<std::int32_t>(grains.count()));
+  for_tiles(regions, threads, [&](std::int32_t tile) { lister.collect(tile, lists[tile]); });
+  std::vector<Group<Real>> groups(regions.count());
+  for_regions(regions, threads, [&](std::int32_t region) { lister.group(region, lists, groups[region]); });
 
   // Places of the groups' blocks, colours and fillers.
   ContactBlocks<Real>& blocks = system.blocks;
-  blocks.tile_colour.clear();
+  blocks.region_colour.clear();
   std::int32_t block = 0, colour = 0, filler = first_point(grains.count()) + walls;
   for (Group<Real>& group : groups) {
-    blocks.tile_colour.push_back(colour);
+    blocks.region_colour.push_back(colour);
     group.first_block = block;
     group.first_colour = colour;
     group.first_filler = filler;
@@ -273,6 +285,7 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
     colour += static_cast<std::int32_t>(group.members.size());
     filler += 2 * group.empty_lanes;
   }
+  blocks.region_colour.push_back(colour);
   blocks.block.assign(block, {});
   blocks.colour.assign(colour, {});
   blocks.wake.assign(block, 0);
@@ -280,8 +293,8 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
   blocks.wall.clear();
   blocks.wall_grain.clear();
   for (int wall = 0; wall < 3; ++wall)
-    for (std::int32_t tile = 0; tile < tiles; ++tile)
-      for (const std::int32_t grain : groups[tile].walls[wall]) {
+    for (const TileList<Real>& list : lists)
+      for (const std::int32_t grain : list.walls[wall]) {
         blocks.wall.push_back(kWalls[wall]);
         blocks.wall_grain.push_back(grain);
       }
@@ -289,11 +302,9 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
   system.pair.resize(pairs);
   system.pair_slot.assign(pairs, 0);
 
-  in_parallel([&](std::int32_t tile) {
-    std::copy(groups[tile].pairs.begin(), groups[tile].pairs.end(), system.pair.begin() + groups[tile].first_pair);
-    fill(groups[tile], grains, system);
-  });
-  fill(between, grains, system);
+  for_regions(regions, threads, [&](std::int32_t region) { fill(groups[region], grains, system); });
+  for (const TileList<Real>& list : lists)
+    std::copy(list.pairs.begin(), list.pairs.end(), system.pair.begin() + list.first_pair);
 
   system.listed.resize(grains.count());
   for (std::size_t i = 0; i < grains.count(); ++i) system.listed[i] = {grains.disc[i].x, grains.disc[i].y};
@@ -306,6 +317,7 @@ template <class Real>
 void refresh_derived(ContactSystem<Real>& system, Grains& grains) {
   const std::size_t count = grains.count();
   ContactBlocks<Real>& blocks = system.blocks;
+  system.regions = Regions(count);
   const std::size_t bodies = (static_cast<std::size_t>(blocks.bodies) + 3) / 4 * 4;
 
   // Bodies after the grains do not move; fillers stand in pairs one apart, so that their normal is a number.

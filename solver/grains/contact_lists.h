@@ -5,11 +5,6 @@
 
 namespace seapile::grains {
 
-/// Tiles of so many grains.
-inline std::int32_t tile_count(std::size_t grain_count) {
-  return (static_cast<std::int32_t>(grain_count) + kTileGrains - 1) / kTileGrains;
-}
-
 /// Makes the neighbour list and the blocks anew from the grains' places; contacts that stay keep their impulses.
 /// The same for any number of threads.
 template <class Real>

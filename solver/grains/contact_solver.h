@@ -19,6 +19,7 @@
 #include "solver/grains/contact_kernels.h"
 #include "solver/grains/grains.h"
 #include "solver/grains/neighbours.h"
+#include "solver/grains/regions.h"
 #include "solver/grains/rigid_body.h"
 
 namespace seapile::grains {
@@ -96,12 +97,14 @@ struct ContactSystem {
   std::vector<base::Vec2> listed;            ///< places of the grains when the list was made; empty: never (count)
 
   // Derived.
+  Regions regions;                           ///< of the grains
   base::AlignedVector<Before<Real>> before;  ///< (grains, filled up to a multiple of four, and wall points)
   base::AlignedVector<Iterate<Real>> iterate;  ///< of the non-smooth method, (blocks); empty for soft impulses
-  std::vector<SweepSums> sweep_sums;
-  std::vector<BodySums> body_sums;
+  base::AlignedVector<SweepSums> sweep_sums;   ///< (colours)
+  base::AlignedVector<BodySums> body_sums;     ///< (tiles)
   std::vector<double> approach, body_approach;  ///< normal velocities at the start of the step, where e > 0 [m/s]
-  std::vector<double> path;  ///< longest squared path of a grain in this step, per tile [m2]
+  std::vector<double> path;    ///< longest squared path of a grain in this step, (tiles) [m2]
+  std::vector<double> scratch; ///< one number of each tile, while the largest is sought
 
   Motion<Real>& motion(std::int32_t body) { return group[body / 4].motion[body % 4]; }
   const Motion<Real>& motion(std::int32_t body) const { return group[body / 4].motion[body % 4]; }

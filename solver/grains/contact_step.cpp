@@ -5,17 +5,31 @@
 namespace seapile::grains {
 namespace {
 
+/// The largest of value(grain) over all grains, at least 0; each tile is looked through by the thread that has it.
+template <class Real>
+double largest(ContactSystem<Real>& system, int threads, auto&& value) {
+  system.scratch.assign(system.regions.tiles(), 0);
+  for_tiles(system.regions, threads, [&](std::int32_t tile) {
+    double most = 0;
+    for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i)
+      most = std::max(most, value(i));
+    system.scratch[tile] = most;
+  });
+  double most = 0;
+  for (const double v : system.scratch) most = std::max(most, v);
+  return most;
+}
+
 /// True when some pair that is not listed might touch during the coming step.
 template <class Real>
-bool list_is_worn(const ContactSystem<Real>& system, const Grains& grains, double reach) {
+bool list_is_worn(ContactSystem<Real>& system, const Grains& grains, double reach, int threads) {
   if (system.listed.size() != grains.count()) return true;
   // Cheap bound first: no gap has closed by more than this.
   if (system.closing - system.listed_closing + reach <= system.skin) return false;
-  double longest = 0;
-  for (std::size_t i = 0; i < grains.count(); ++i) {
+  const double longest = largest(system, threads, [&](std::int32_t i) {
     const double dx = grains.disc[i].x - system.listed[i].x, dy = grains.disc[i].y - system.listed[i].y;
-    longest = std::max(longest, dx * dx + dy * dy);
-  }
+    return dx * dx + dy * dy;
+  });
   return 2 * std::sqrt(longest) + reach > system.skin;
 }
 
@@ -31,11 +45,9 @@ double larger_or_nan(double a, double b) { return a < b || std::isnan(b) ? b : a
 }  // namespace
 
 template <class Real>
-Closing expected_closing(const ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law,
-                         const RigidBody* body, std::span<const double> body_path) {
-  double fastest = 0;
-  for (std::size_t i = 0; i < grains.count(); ++i)
-    fastest = std::max(fastest, squared_speed(system.motion(static_cast<std::int32_t>(i))));
+Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, const RigidBody* body,
+                         std::span<const double> body_path, int threads) {
+  const double fastest = largest(system, threads, [&](std::int32_t i) { return squared_speed(system.motion(i)); });
   Closing closing;
   closing.body_speed =
       body_path.empty() ? (body ? norm(body->velocity) : 0) : std::abs(body_path.back()) / law.step;
@@ -53,7 +65,7 @@ bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, Rig
   // a list holds, it wears early. The lists of the body wear by its own path too.
   const double skin = system.skin;
   const bool leaps = closing.likely > skin;
-  const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin));
+  const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin), threads);
   if (leaps) system.skin = closing.reach;
   if (worn) list_contacts(system, grains, box, threads);
   if (body && (worn || body->listed_travel + closing.body_speed * step > skin))
@@ -65,9 +77,8 @@ bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, Rig
 
 template <class Real>
 void move_places(ContactSystem<Real>& system, Grains& grains, std::int32_t tile, double h) {
-  const auto count = static_cast<std::int32_t>(grains.count());
   double longest = 0;
-  for (std::int32_t i = tile * kTileGrains; i < std::min((tile + 1) * kTileGrains, count); ++i) {
+  for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i) {
     const Motion<Real>& now = system.motion(i);
     const double dx = static_cast<double>(system.drift(i).dx) + h * static_cast<double>(now.vx);
     const double dy = static_cast<double>(system.drift(i).dy) + h * static_cast<double>(now.vy);
@@ -128,8 +139,8 @@ void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::in
 }
 
 #define SEAPILE_INSTANTIATE(Real)                                                                                      \
-  template Closing expected_closing(const ContactSystem<Real>&, const Grains&, const ContactLaw&, const RigidBody*,    \
-                                    std::span<const double>);                                                          \
+  template Closing expected_closing(ContactSystem<Real>&, const ContactLaw&, const RigidBody*, std::span<const double>, \
+                                    int);                                                                              \
   template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, int);             \
   template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                                      \
   template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                                      \

@@ -141,28 +141,25 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
                                 RigidBody* body, std::span<const double> body_path, bool keep_impulses,
                                 ContactTotals& totals, const Team& team, base::Profile& profile) {
   const std::size_t in_list = profile.index("neighbour list"), in_detection = profile.index("contact detection"),
-                    in_tiles = profile.index("sweeps in tiles"), in_between = profile.index("sweeps between tiles"),
+                    in_sweeps = profile.index("sweeps"), in_waiting = profile.index("waiting"),
                     in_pile = profile.index("pile contacts"), in_places = profile.index("places");
   const ContactKernels<Real>& kernel = contact_kernels<Real>(team.instructions);
   const double dt = law.step;
   const Bias bias(law, system.smallest_radius);
   const bool restitution = law.restitution > 0;
   ContactReport report;
-  Laps serial(profile, true);
+  Laps serial(profile);
 
-  const Closing closing = expected_closing(system, grains, law, body, body_path);
+  const Closing closing = expected_closing(system, law, body, body_path, team.threads);
   report.rebuilt = keep_lists(system, grains, box, body, closing, dt, team.threads);
   serial.lap(in_list);
 
   ContactBlocks<Real>& blocks = system.blocks;
-  const std::int32_t tiles = tile_count(grains.count());
-  const auto colours = static_cast<std::int32_t>(blocks.colour.size()), first_between = blocks.tile_colour[tiles];
-  std::int32_t between_chunks = 0;
-  for (std::int32_t colour = first_between; colour < colours; ++colour) between_chunks += chunk_count(blocks, colour);
+  const Regions& regions = system.regions;
   system.iterate.resize(blocks.block.size());
-  std::vector<SolveSums> sums(first_between + between_chunks + 1);  // the last one: of the body
-  system.body_sums.assign(tiles, {});  // begin() fills them; the warm start is no work of its own here
-  system.path.assign(tiles, 0);
+  std::vector<SolveSums> sums(blocks.colour.size() + 1);  // the last one: of the body
+  system.body_sums.assign(regions.tiles(), {});  // begin() fills them; the warm start is no work of its own here
+  system.path.assign(regions.tiles(), 0);
   const Nearness near{closing.margin, dt, system.closing, closing.reach};
 
   const base::Vec2 body_before = !body_path.empty() ? base::Vec2{0, -body_path.back() / dt}
@@ -190,11 +187,10 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   Meeting meeting;
 #pragma omp parallel num_threads(team.threads) if (team.threads > 1)
   {
-    const Share<Real> share(blocks, grains.count(), meeting);
-    Laps laps(profile, share.leads());
-    /// Calls work(first, last, friction, sum) for every run of blocks inside this thread's tiles.
-    const auto for_own = [&](std::int32_t tile, auto&& work) {
-      for (std::int32_t colour = blocks.tile_colour[tile]; colour < blocks.tile_colour[tile + 1]; ++colour) {
+    Worker worker(regions, meeting, profile, in_waiting);
+    /// Calls work(first, last, friction, sum) for every run of a region's blocks.
+    const auto for_runs = [&](std::int32_t region, auto&& work) {
+      for (std::int32_t colour = blocks.region_colour[region]; colour < blocks.region_colour[region + 1]; ++colour) {
         const Colour& c = blocks.colour[colour];
         work(c.first, c.first_wall, law.friction_grain, sums[colour]);
         if (c.first_wall < c.last) work(c.first_wall, c.last, law.friction_wall, sums[colour]);
@@ -202,7 +198,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
     };
 
     // Detection: normals, gaps, what is asked of each contact, and what the kept impulses do.
-    detect(share, system, grains.count(), refresh);
+    detect(worker, in_detection, system, refresh);
 #pragma omp master
     if (body) {
       detect_body_contacts(*body, grains, system);
@@ -213,30 +209,20 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
         body->velocity = body->velocity + dt * body_push(*body, law) + body->inverse_mass * kept_impulse(*body);
       old_body_velocity = body->velocity;
     }
-    share.meet();
-    for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile)
-      kernel.begin(system.group.data(), system.before.data(), share.first_group(tile), share.first_group(tile + 1),
+    worker.meet(in_detection);
+    for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile)
+      kernel.begin(system.group.data(), system.before.data(), regions.first_group(tile), regions.first_group(tile + 1),
                    static_cast<Real>(dt), static_cast<Real>(law.gravity), &system.body_sums[tile]);
-    laps.lap(in_detection);
+    worker.lap(in_detection);
 
     while (!solved) {
-      for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
-        kernel.extrapolate(system.group.data(), share.first_group(tile), share.first_group(tile + 1),
-                           static_cast<Real>(momentum));
-        for_own(tile, solve);
-      }
-      share.meet();
-      laps.lap(in_tiles);
-
-      std::int32_t first_sum = first_between;
-      for (std::int32_t colour = first_between; colour < colours; ++colour) {
-        share.between(colour, [&](std::int32_t chunk, std::int32_t first, std::int32_t last) {
-          solve(first, last, law.friction_grain, sums[first_sum + chunk]);
-        });
-        first_sum += chunk_count(blocks, colour);
-        share.meet();
-      }
-      laps.lap(in_between);
+      worker.climb(in_sweeps, [&](std::int32_t region) {
+        const Region& r = regions[region];
+        if (r.is_tile())
+          kernel.extrapolate(system.group.data(), regions.first_group(r.first_tile), regions.first_group(r.last_tile),
+                             static_cast<Real>(momentum));
+        for_runs(region, solve);
+      });
 
 #pragma omp master
       {
@@ -251,32 +237,23 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
         momentum = nesterov.next(change);
         solved = ++report.sweeps >= law.nonsmooth->sweeps || change <= law.nonsmooth->tolerance;
       }
-      share.meet();
-      laps.lap(in_pile);
+      worker.meet(in_pile);
     }
 
     // What is left, and what was done.
-    for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
-      for_own(tile, assess);
-      for (std::int32_t colour = blocks.tile_colour[tile]; colour < blocks.tile_colour[tile + 1]; ++colour)
+    worker.each([&](std::int32_t region) {
+      for_runs(region, assess);
+      for (std::int32_t colour = blocks.region_colour[region]; colour < blocks.region_colour[region + 1]; ++colour)
         keep_step_impulses(blocks, keep_impulses ? blocks.colour[colour].first : blocks.colour[colour].first_wall,
                            blocks.colour[colour].last, true);
-    }
-    std::int32_t first_sum = first_between;
-    for (std::int32_t colour = first_between; colour < colours; ++colour) {
-      share.between(colour, [&](std::int32_t chunk, std::int32_t first, std::int32_t last) {
-        assess(first, last, law.friction_grain, sums[first_sum + chunk]);
-        if (keep_impulses) keep_step_impulses(blocks, first, last, true);
-      });
-      first_sum += chunk_count(blocks, colour);
-    }
-    share.meet();
-    for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
-      for (std::int32_t group = share.first_group(tile); group < share.first_group(tile + 1); ++group)
+    });
+    worker.meet(in_places);
+    for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) {
+      for (std::int32_t group = regions.first_group(tile); group < regions.first_group(tile + 1); ++group)
         for (Drift<Real>& drift : system.group[group].drift) drift = {};
       move_places(system, grains, tile, dt);
     }
-    laps.lap(in_places);
+    worker.lap(in_places);
   }
 
   if (body) {

@@ -28,9 +28,8 @@ Softness<Real> narrow(const Softness<double>& s) {
 /// Vertical contact impulse on a tile's grains in the last sub-step [N s/m].
 template <class Real>
 double last_lift(const ContactSystem<Real>& system, const Grains& grains, std::int32_t tile, double fall) {
-  const auto count = static_cast<std::int32_t>(grains.count());
   double lift = 0;
-  for (std::int32_t i = tile * kTileGrains; i < std::min((tile + 1) * kTileGrains, count); ++i)
+  for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i)
     lift += grains.mass[i] * (static_cast<double>(system.motion(i).vy - system.before[i].vy) + fall);
   return lift;
 }
@@ -42,7 +41,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
                                RigidBody* body, std::span<const double> body_path, bool keep_impulses,
                                ContactTotals& totals, const Team& team, base::Profile& profile) {
   const std::size_t in_list = profile.index("neighbour list"), in_detection = profile.index("contact detection"),
-                    in_tiles = profile.index("sweeps in tiles"), in_between = profile.index("sweeps between tiles"),
+                    in_sweeps = profile.index("sweeps"), in_waiting = profile.index("waiting"),
                     in_pile = profile.index("pile contacts"), in_places = profile.index("places");
   const ContactKernels<Real>& kernel = contact_kernels<Real>(team.instructions);
   const double h = law.step / law.substeps;
@@ -50,20 +49,17 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   const Softness<Real> soft_real = narrow<Real>(soft);
   ContactReport report;
   report.sweeps = law.substeps;
-  Laps serial(profile, true);
+  Laps serial(profile);
 
-  const Closing closing = expected_closing(system, grains, law, body, body_path);
+  const Closing closing = expected_closing(system, law, body, body_path, team.threads);
   report.rebuilt = keep_lists(system, grains, box, body, closing, law.step, team.threads);
   serial.lap(in_list);
 
   ContactBlocks<Real>& blocks = system.blocks;
-  const std::int32_t tiles = tile_count(grains.count());
-  const auto colours = static_cast<std::int32_t>(blocks.colour.size()), first_between = blocks.tile_colour[tiles];
-  std::int32_t between_chunks = 0;
-  for (std::int32_t colour = first_between; colour < colours; ++colour) between_chunks += chunk_count(blocks, colour);
-  system.sweep_sums.assign(first_between + between_chunks, {});
-  system.body_sums.assign(tiles, {});
-  system.path.assign(tiles, 0);
+  const Regions& regions = system.regions;
+  system.sweep_sums.assign(blocks.colour.size(), {});
+  system.body_sums.assign(regions.tiles(), {});
+  system.path.assign(regions.tiles(), 0);
   const Nearness near{closing.margin, law.step, system.closing, closing.reach};
   BodySweep body_sweep;
   base::Vec2 body_before;  // velocity of the body at the start of the sub-step
@@ -82,11 +78,10 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   Meeting meeting;
 #pragma omp parallel num_threads(team.threads) if (team.threads > 1)
   {
-    const Share<Real> share(blocks, grains.count(), meeting);
-    Laps laps(profile, share.leads());
+    Worker worker(regions, meeting, profile, in_waiting);
 
     // Detection: normals and gaps, and the velocity change by the impulses kept from the last step.
-    detect(share, system, grains.count(), refresh);
+    detect(worker, in_detection, system, refresh);
 #pragma omp master
     {
       if (body) detect_body_contacts(*body, grains, system);
@@ -95,23 +90,25 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
         remember_approach(system, body, body && body_path.empty() ? body->velocity : driven);
       }
     }
-    share.meet();
-    laps.lap(in_detection);
+    worker.meet(in_detection);
 
     for (int k = 0; k < law.substeps; ++k) {
-      // Tile by tile: gravity and warm start, then the contacts inside the tile, while its bodies are in the cache.
-      for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
-        (k == 0 ? kernel.begin : kernel.advance)(system.group.data(), system.before.data(), share.first_group(tile),
-                                                 share.first_group(tile + 1), static_cast<Real>(h),
-                                                 static_cast<Real>(law.gravity), &system.body_sums[tile]);
-        for (std::int32_t colour = blocks.tile_colour[tile]; colour < blocks.tile_colour[tile + 1]; ++colour) {
+      // A tile begins with gravity and warm start, then come its contacts, while its bodies are in the cache.
+      worker.climb(in_sweeps, [&](std::int32_t region) {
+        const Region& r = regions[region];
+        if (r.is_tile())
+          (k == 0 ? kernel.begin : kernel.advance)(system.group.data(), system.before.data(), regions.first_group(r.first_tile),
+                                                   regions.first_group(r.last_tile), static_cast<Real>(h),
+                                                   static_cast<Real>(law.gravity), &system.body_sums[r.first_tile]);
+        for (std::int32_t colour = blocks.region_colour[region]; colour < blocks.region_colour[region + 1]; ++colour) {
           const Colour& c = blocks.colour[colour];
           sweep(c.first, c.first_wall, law.friction_grain, system.sweep_sums[colour]);
           if (c.first_wall < c.last) sweep(c.first_wall, c.last, law.friction_wall, system.sweep_sums[colour]);
           keep_step_impulses(blocks, keep_impulses ? c.first : c.first_wall, c.last, k == 0);
         }
-      }
-      // The rigid body's own velocity: prescribed, or by gravity, its force and its warm start.
+      });
+
+      // The rigid body: its own velocity, prescribed, or by gravity, its force and its warm start; then its contacts.
 #pragma omp master
       if (body) {
         body_before = body->velocity;
@@ -119,24 +116,6 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
           body->velocity = {0, -(body_path[k] - (k > 0 ? body_path[k - 1] : 0.0)) / h};
         else
           body->velocity = body->velocity + h * body_push(*body, law) + body->inverse_mass * kept_impulse(*body);
-      }
-      share.meet();
-      laps.lap(in_tiles);
-
-      // Contacts between tiles, colour by colour.
-      std::int32_t first_sum = first_between;
-      for (std::int32_t colour = first_between; colour < colours; ++colour) {
-        share.between(colour, [&](std::int32_t chunk, std::int32_t first, std::int32_t last) {
-          sweep(first, last, law.friction_grain, system.sweep_sums[first_sum + chunk]);
-          if (keep_impulses) keep_step_impulses(blocks, first, last, k == 0);
-        });
-        first_sum += chunk_count(blocks, colour);
-        share.meet();
-      }
-      laps.lap(in_between);
-
-#pragma omp master
-      if (body) {
         const BodySweep s = sweep_body_contacts(*body, system, soft, totals);
         body_sweep.work += s.work;
         body_sweep.residual += s.residual;
@@ -151,22 +130,17 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
         }
         body->moved = body->moved + h * body->velocity;
       }
-      share.meet();
-      laps.lap(in_pile);
+      worker.meet(in_pile);
     }
 
     std::int64_t own_touching = 0;
-    for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) {
+    for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) {
       move_places(system, grains, tile, h);
       system.body_sums[tile].lift += last_lift(system, grains, tile, h * law.gravity);
-      own_touching += touching_in(blocks, share.first_block(tile), share.first_block(tile + 1));
     }
-    for (std::int32_t colour = first_between; colour < colours; ++colour)
-      share.between(colour, [&](std::int32_t, std::int32_t first, std::int32_t last) {
-        own_touching += touching_in(blocks, first, last);
-      });
+    worker.each([&](std::int32_t region) { own_touching += touching_in(blocks, region); });
     touching += own_touching;
-    laps.lap(in_places);
+    worker.lap(in_places);
   }
 
   if (body) move_body(*body);

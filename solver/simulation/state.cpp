@@ -63,7 +63,7 @@ void take_contacts(const ContactSystem<Real>& system, std::size_t count, Parts& 
   parts.add("blocks/mass", "kg/m", "effective mass of each lane", 1, Entity::contact, std::move(mass));
   parts.add("blocks/impulse", "N s/m", "normal and tangential impulse of the last sub-step", 2, Entity::contact, std::move(impulse));
   parts.add("blocks/wake", "m", "closing at which a resting block is looked at again", 1, Entity::contact, blocks.wake);
-  parts.add("blocks/tile_colour", "-", "first colour of each tile", 1, Entity::run, blocks.tile_colour);
+  parts.add("blocks/region_colour", "-", "first colour of each region, and the end", 1, Entity::run, blocks.region_colour);
   parts.add("list/closing", "m", "closing so far, and when the list was made", 1, Entity::run,
             std::vector<double>{system.closing, system.listed_closing});
   parts.add("blocks/colour", "-", "first block, first wall block, end of each colour", 3, Entity::run, std::move(colour));
@@ -181,7 +181,7 @@ void put_contacts(ContactSystem<Real>& system, grains::Grains& grains, const Sou
     blocks.wall_slot.push_back(wall[k + 2]);
   }
   blocks.wake = source.get<double>("blocks/wake");
-  blocks.tile_colour = source.get<std::int32_t>("blocks/tile_colour");
+  blocks.region_colour = source.get<std::int32_t>("blocks/region_colour");
   system.closing = source.get<double>("list/closing")[0];
   system.listed_closing = source.get<double>("list/closing")[1];
   const auto& counts = source.get<std::int64_t>("blocks/bodies_count");
@@ -224,7 +224,7 @@ void check_lists(const Source& source, std::size_t grain_count) {
   const std::size_t lanes = source.get<Real>("blocks/mass").size(), pairs = source.get<std::int32_t>("list/slot").size();
   const auto& wall = source.get<std::int32_t>("blocks/wall");
   const auto& colour = source.get<std::int32_t>("blocks/colour");
-  const auto& tile_colour = source.get<std::int32_t>("blocks/tile_colour");
+  const auto& region_colour = source.get<std::int32_t>("blocks/region_colour");
   const auto rows = [&](bool fit, const char* name) {
     if (!fit) throw std::invalid_argument(std::string("state: ") + name + ": does not fit the other arrays of the list");
   };
@@ -237,7 +237,7 @@ void check_lists(const Source& source, std::size_t grain_count) {
   const bool listed = !source.get<double>("list/position").empty();
   rows(listed || lanes == 0, "list/position");
   if (!listed) return;
-  rows(tile_colour.size() == static_cast<std::size_t>(grains::tile_count(grain_count)) + 1, "blocks/tile_colour");
+  rows(region_colour.size() == static_cast<std::size_t>(grains::Regions(grain_count).count()) + 1, "blocks/region_colour");
   rows(lanes == 0 ? colour.empty() : !colour.empty() && static_cast<std::size_t>(colour.back()) * grains::kLanes == lanes, "blocks/colour");
   const std::size_t walls = wall.size() / 3;
   rows(pairs + walls <= lanes &&

@@ -80,19 +80,19 @@ TEST(ContactLists, NoTwoContactsOfAColourShareABody) {
   expect_no_shared_grain_within_a_colour(listed(planet(200, 100), {-support::kFar, support::kFar, -support::kFar}));
 }
 
-// Threads own tiles: a contact inside a tile may touch its grains only, and one of no tile must wait for the others.
-TEST(ContactLists, ATilesColoursHoldItsOwnContactsAndThoseBetweenTilesComeLast) {
-  const auto scene = listed(support::jittered_lattice(1200, 35, 0.01, 0.02, 1), {0, 1.43, 0});
+// Threads own regions: a region's blocks may touch its grains only, and those of a smaller region must not be in them.
+TEST(ContactLists, AContactBelongsToTheSmallestRegionThatHoldsBothItsGrains) {
+  constexpr std::int32_t kGrains = 6000;
+  const auto scene = listed(support::jittered_lattice(kGrains, 75, 0.01, 0.02, 1), {0, 3.03, 0});
   const auto& blocks = scene.system.blocks;
-  const std::int32_t tiles = tile_count(1200);
-  ASSERT_GE(tiles, 3);
-  ASSERT_EQ(blocks.tile_colour.size(), static_cast<std::size_t>(tiles) + 1);
-  EXPECT_EQ(blocks.tile_colour.front(), 0);
-  std::int32_t next_block = 0, between = 0;
-  for (std::int32_t tile = 0; tile <= tiles; ++tile) {
-    const std::int32_t end =
-        tile < tiles ? blocks.tile_colour[tile + 1] : static_cast<std::int32_t>(blocks.colour.size());
-    for (std::int32_t k = blocks.tile_colour[tile]; k < end; ++k) {
+  const Regions& regions = scene.system.regions;
+  ASSERT_EQ(blocks.region_colour.size(), static_cast<std::size_t>(regions.count()) + 1);
+  EXPECT_EQ(blocks.region_colour.front(), 0);
+  EXPECT_EQ(blocks.region_colour.back(), static_cast<std::int32_t>(blocks.colour.size()));
+  std::int32_t next_block = 0;
+  std::vector<int> found(regions.count());
+  for (std::int32_t region = 0; region < regions.count(); ++region)
+    for (std::int32_t k = blocks.region_colour[region]; k < blocks.region_colour[region + 1]; ++k) {
       const Colour& colour = blocks.colour[k];
       EXPECT_EQ(colour.first, next_block);
       next_block = colour.last;
@@ -101,20 +101,13 @@ TEST(ContactLists, ATilesColoursHoldItsOwnContactsAndThoseBetweenTilesComeLast) 
           if (!filled(blocks.block[b], lane)) continue;
           const std::int32_t i = body_at(blocks.block[b].i[lane]), j = body_at(blocks.block[b].j[lane]);
           const bool wall = b >= colour.first_wall;
-          EXPECT_EQ(wall, j >= 1200);
-          if (tile < tiles) {
-            EXPECT_EQ(i / kTileGrains, tile);
-            EXPECT_TRUE(wall || j / kTileGrains == tile);
-          } else {
-            EXPECT_NE(i / kTileGrains, j / kTileGrains);
-            EXPECT_FALSE(wall);
-            ++between;
-          }
+          EXPECT_EQ(wall, j >= kGrains);
+          EXPECT_EQ(regions.holding(regions.tile_of(i), regions.tile_of(wall ? i : j)), region);
+          ++found[region];
         }
     }
-  }
   EXPECT_EQ(next_block, static_cast<std::int32_t>(blocks.block.size()));
-  EXPECT_GT(between, 20);
+  for (std::int32_t region = 0; region < regions.count(); ++region) EXPECT_GT(found[region], 20) << region;
 }
 
 TEST(ContactLists, EveryListedContactStandsInExactlyOneLane) {
