@@ -1,5 +1,4 @@
 # Everything comes from Debian 12 (cmake/debian-packages.txt); nothing is fetched, nothing is vendored.
-find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)

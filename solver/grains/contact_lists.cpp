@@ -249,12 +249,12 @@ void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& s
 }  // namespace
 
 template <class Real>
-void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, int threads) {
+void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, base::Crew* crew) {
   const Regions& regions = system.regions;
   const std::int32_t tiles = regions.tiles();
   const Lister<Real> lister(system, grains, box);
   std::vector<TileList<Real>> lists(tiles);
-  for_tiles(regions, threads, [&](std::int32_t tile) { lister.find(tile, lists[tile]); });
+  for_tiles(regions, crew, [&](std::int32_t tile) { lister.find(tile, lists[tile]); });
 
   // Numbers of pairs and wall contacts: pairs by tile, walls by wall and then by tile, so that both lists ascend.
   std::int32_t pairs = 0, walls = 0;
@@ -268,9 +268,9 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
       walls += static_cast<std::int32_t>(list.walls[wall].size());
     }
 
-  for_tiles(regions, threads, [&](std::int32_t tile) { lister.collect(tile, lists[tile]); });
+  for_tiles(regions, crew, [&](std::int32_t tile) { lister.collect(tile, lists[tile]); });
   std::vector<Group<Real>> groups(regions.count());
-  for_regions(regions, threads, [&](std::int32_t region) { lister.group(region, lists, groups[region]); });
+  for_regions(regions, crew, [&](std::int32_t region) { lister.group(region, lists, groups[region]); });
 
   // Places of the groups' blocks, colours and fillers.
   ContactBlocks<Real>& blocks = system.blocks;
@@ -302,7 +302,7 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
   system.pair.resize(pairs);
   system.pair_slot.assign(pairs, 0);
 
-  for_regions(regions, threads, [&](std::int32_t region) { fill(groups[region], grains, system); });
+  for_regions(regions, crew, [&](std::int32_t region) { fill(groups[region], grains, system); });
   for (const TileList<Real>& list : lists)
     std::copy(list.pairs.begin(), list.pairs.end(), system.pair.begin() + list.first_pair);
 
@@ -368,8 +368,8 @@ void place_wall_points(const ContactSystem<Real>& system, Grains& grains, const 
   }
 }
 
-template void list_contacts(ContactSystem<float>&, Grains&, const Box&, int);
-template void list_contacts(ContactSystem<double>&, Grains&, const Box&, int);
+template void list_contacts(ContactSystem<float>&, Grains&, const Box&, base::Crew*);
+template void list_contacts(ContactSystem<double>&, Grains&, const Box&, base::Crew*);
 template void refresh_derived(ContactSystem<float>&, Grains&);
 template void refresh_derived(ContactSystem<double>&, Grains&);
 template void enclose(ContactSystem<float>&, Grains&);

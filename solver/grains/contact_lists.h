@@ -6,9 +6,9 @@
 namespace seapile::grains {
 
 /// Makes the neighbour list and the blocks anew from the grains' places; contacts that stay keep their impulses.
-/// The same for any number of threads.
+/// The same for any crew.
 template <class Real>
-void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, int threads = 1);
+void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, base::Crew* crew = nullptr);
 
 /// Puts the points of the walls at the feet of their grains.
 template <class Real>

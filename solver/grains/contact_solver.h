@@ -10,10 +10,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "solver/base/crew.h"
 #include "solver/base/profile.h"
 #include "solver/grains/contact_blocks.h"
 #include "solver/grains/contact_kernels.h"
@@ -115,9 +117,9 @@ struct ContactSystem {
   std::int64_t rebuilds = 0;
 };
 
-/// Shares the work of a step out to threads; the result does not depend on their number.
+/// How a step is executed; the result does not depend on it.
 struct Team {
-  int threads = 1;
+  std::shared_ptr<base::Crew> crew;  ///< absent: one thread
   InstructionSet instructions = InstructionSet::generic;
 };
 

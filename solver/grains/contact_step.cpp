@@ -7,9 +7,9 @@ namespace {
 
 /// The largest of value(grain) over all grains, at least 0; each tile is looked through by the thread that has it.
 template <class Real>
-double largest(ContactSystem<Real>& system, int threads, auto&& value) {
+double largest(ContactSystem<Real>& system, base::Crew* crew, auto&& value) {
   system.scratch.assign(system.regions.tiles(), 0);
-  for_tiles(system.regions, threads, [&](std::int32_t tile) {
+  for_tiles(system.regions, crew, [&](std::int32_t tile) {
     double most = 0;
     for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i)
       most = std::max(most, value(i));
@@ -22,11 +22,11 @@ double largest(ContactSystem<Real>& system, int threads, auto&& value) {
 
 /// True when some pair that is not listed might touch during the coming step.
 template <class Real>
-bool list_is_worn(ContactSystem<Real>& system, const Grains& grains, double reach, int threads) {
+bool list_is_worn(ContactSystem<Real>& system, const Grains& grains, double reach, base::Crew* crew) {
   if (system.listed.size() != grains.count()) return true;
   // Cheap bound first: no gap has closed by more than this.
   if (system.closing - system.listed_closing + reach <= system.skin) return false;
-  const double longest = largest(system, threads, [&](std::int32_t i) {
+  const double longest = largest(system, crew, [&](std::int32_t i) {
     const double dx = grains.disc[i].x - system.listed[i].x, dy = grains.disc[i].y - system.listed[i].y;
     return dx * dx + dy * dy;
   });
@@ -46,8 +46,8 @@ double larger_or_nan(double a, double b) { return a < b || std::isnan(b) ? b : a
 
 template <class Real>
 Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, const RigidBody* body,
-                         std::span<const double> body_path, int threads) {
-  const double fastest = largest(system, threads, [&](std::int32_t i) { return squared_speed(system.motion(i)); });
+                         std::span<const double> body_path, base::Crew* crew) {
+  const double fastest = largest(system, crew, [&](std::int32_t i) { return squared_speed(system.motion(i)); });
   Closing closing;
   closing.body_speed =
       body_path.empty() ? (body ? norm(body->velocity) : 0) : std::abs(body_path.back()) / law.step;
@@ -60,14 +60,14 @@ Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, con
 
 template <class Real>
 bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
-                double step, int threads) {
+                double step, base::Crew* crew) {
   // Two grains that may cross the whole skin within this step are looked for farther out; as the skin says less than such
   // a list holds, it wears early. The lists of the body wear by its own path too.
   const double skin = system.skin;
   const bool leaps = closing.likely > skin;
-  const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin), threads);
+  const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin), crew);
   if (leaps) system.skin = closing.reach;
-  if (worn) list_contacts(system, grains, box, threads);
+  if (worn) list_contacts(system, grains, box, crew);
   if (body && (worn || body->listed_travel + closing.body_speed * step > skin))
     list_body_contacts(*body, grains, 3 * system.skin);
   system.skin = skin;
@@ -140,8 +140,8 @@ void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::in
 
 #define SEAPILE_INSTANTIATE(Real)                                                                                      \
   template Closing expected_closing(ContactSystem<Real>&, const ContactLaw&, const RigidBody*, std::span<const double>, \
-                                    int);                                                                              \
-  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, int);             \
+                                    base::Crew*);                                                                      \
+  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, base::Crew*);             \
   template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                                      \
   template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                                      \
   template void keep_step_impulses(ContactBlocks<Real>&, std::int32_t, std::int32_t, bool);

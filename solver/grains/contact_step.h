@@ -22,13 +22,13 @@ struct Closing {
 };
 template <class Real>
 Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, const RigidBody* body,
-                         std::span<const double> body_path, int threads);
+                         std::span<const double> body_path, base::Crew* crew);
 
 /// Makes the lists anew where they might miss a contact of the coming step, and places the points of the walls. True
 /// when the neighbour list was made anew.
 template <class Real>
 bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
-                double step, int threads);
+                double step, base::Crew* crew);
 
 /// Adds the path of a step, drift + h v, to the places of a tile's grains; sets the tile's longest squared path.
 template <class Real>
@@ -75,7 +75,7 @@ std::int64_t touching_in(const ContactBlocks<Real>& blocks, std::int32_t region)
   return touching;
 }
 
-/// Detection, by one thread of a team: clears the velocity changes of its grains and calls refresh(first, last) for the
+/// Detection, by one thread of a crew: clears the velocity changes of its grains and calls refresh(first, last) for the
 /// blocks of its regions.
 template <class Real>
 void detect(Worker& worker, std::size_t part, ContactSystem<Real>& system, auto&& refresh) {

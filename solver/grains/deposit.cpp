@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "solver/base/random.h"
+#include "solver/grains/neighbours.h"
+#include "solver/grains/regions.h"
 
 namespace seapile::grains {
 namespace {
@@ -14,6 +17,7 @@ namespace {
 enum : std::uint32_t { kRadii = 0, kAcross = 1, kUp = 2 };
 
 constexpr double kLatticeRoom = 1.02;  // cell over largest diameter
+constexpr double kBorder = 0.5;        // gap over largest radius below which grains are neighbours
 
 /// Place of a cell (x, y) along the Hilbert curve through a square of 2^16 x 2^16 cells (Hilbert 1891).
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
@@ -29,6 +33,32 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
     std::swap(x, y);
   }
   return index;
+}
+
+/// Of each grain, the largest region cut in half across whose cut it has a neighbour, or -1.
+std::vector<std::int32_t> largest_cut(std::span<const Disc> discs, const Regions& regions) {
+  double largest = 0;
+  for (const Disc& d : discs) largest = std::max(largest, d.radius);
+  std::vector<std::int32_t> cut(discs.size(), -1);
+  for (const auto& [i, j] : neighbour_pairs(discs, kBorder * largest)) {
+    const std::int32_t region = regions.holding(regions.tile_of(i), regions.tile_of(j));
+    if (regions[region].first_half < 0) continue;
+    cut[i] = std::max(cut[i], region);
+    cut[j] = std::max(cut[j], region);
+  }
+  return cut;
+}
+
+/// Puts the grains at a cut together at the start of their tile: a thread that fetches them from another fetches nothing else.
+std::vector<std::size_t> borders_first(std::span<const Disc> discs) {
+  const Regions regions(discs.size());
+  const std::vector<std::int32_t> cut = largest_cut(discs, regions);
+  std::vector<std::size_t> order(discs.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (std::int32_t tile = 0; tile < regions.tiles(); ++tile)
+    std::stable_sort(order.begin() + regions.first_grain(tile), order.begin() + regions.first_grain(tile + 1),
+                     [&](std::size_t a, std::size_t b) { return cut[a] > cut[b]; });
+  return order;
 }
 
 }  // namespace
@@ -47,9 +77,11 @@ Grains arrange(std::vector<GivenGrain> given, double density) {
   std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : given[a.second].id < given[b.second].id;
   });
+  base::AlignedVector<Disc> discs;
+  for (const auto& [index, k] : order) discs.push_back({given[k].x, given[k].y, given[k].radius, 0});
   Grains grains;
-  for (const auto& [index, k] : order) {
-    const GivenGrain& g = given[k];
+  for (const std::size_t along : borders_first(discs)) {
+    const GivenGrain& g = given[order[along].second];
     grains.id.push_back(g.id);
     grains.disc.push_back({g.x, g.y, g.radius, 0});
     grains.mass.push_back(density * std::numbers::pi * g.radius * g.radius);

@@ -16,7 +16,8 @@ namespace seapile::grains {
 /// Grains of ids 0..count-1, in the solver's order.
 Grains deposit(const GrainsSpec& spec, const Box& box, std::uint64_t seed);
 
-/// Grains from rows of id, x, y, radius, in the solver's order: along a Hilbert curve, ties by id.
+/// Grains from rows of id, x, y, radius, in the solver's order: along a Hilbert curve, ties by id; within each tile, those
+/// with neighbours across a cut between regions first, the largest regions' before the others'.
 struct GivenGrain {
   std::int64_t id;
   double x, y, radius;

@@ -17,7 +17,7 @@ struct Disc {
 };
 
 /// The grains in the solver's order: along a Hilbert curve, so that neighbours in space are neighbours in memory and a run
-/// of them is a compact tile. The order is made once from (place, id); no result depends on the order of the input.
+/// of them is a compact tile, in which grains next to other threads' come first. The order is made once from (place, id); no result depends on the order of the input.
 struct Grains {
   std::vector<std::int64_t> id;      ///< the user's name of each grain, (count)
   base::AlignedVector<Disc> disc;    ///< place and radius, (count)

@@ -150,8 +150,8 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   ContactReport report;
   Laps serial(profile);
 
-  const Closing closing = expected_closing(system, law, body, body_path, team.threads);
-  report.rebuilt = keep_lists(system, grains, box, body, closing, dt, team.threads);
+  const Closing closing = expected_closing(system, law, body, body_path, team.crew.get());
+  report.rebuilt = keep_lists(system, grains, box, body, closing, dt, team.crew.get());
   serial.lap(in_list);
 
   ContactBlocks<Real>& blocks = system.blocks;
@@ -184,10 +184,8 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
                   system.before.data(), static_cast<Real>(friction), &sum);
   };
 
-  Meeting meeting;
-#pragma omp parallel num_threads(team.threads) if (team.threads > 1)
-  {
-    Worker worker(regions, meeting, profile, in_waiting);
+  base::together(team.crew.get(), [&](int me, int threads) {
+    Worker worker(regions, team.crew.get(), me, threads, profile, in_waiting);
     /// Calls work(first, last, friction, sum) for every run of a region's blocks.
     const auto for_runs = [&](std::int32_t region, auto&& work) {
       for (std::int32_t colour = blocks.region_colour[region]; colour < blocks.region_colour[region + 1]; ++colour) {
@@ -199,8 +197,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
 
     // Detection: normals, gaps, what is asked of each contact, and what the kept impulses do.
     detect(worker, in_detection, system, refresh);
-#pragma omp master
-    if (body) {
+    if (worker.leads() && body) {
       detect_body_contacts(*body, grains, system);
       for (BodyContact& c : body->contact)
         c.bias = bias(c.gap, restitution ? across(c, body_before, system.motion(c.grain)).normal : 0);
@@ -224,8 +221,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
         for_runs(region, solve);
       });
 
-#pragma omp master
-      {
+      if (worker.leads()) {
         if (body) {
           const base::Vec2 now = body->velocity;
           if (body_path.empty()) body->velocity = now + momentum * (now - old_body_velocity);
@@ -254,7 +250,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
       move_places(system, grains, tile, dt);
     }
     worker.lap(in_places);
-  }
+  });
 
   if (body) {
     const base::Vec2 felt = assess_body(*body, body_before, system, sums.back(), totals);

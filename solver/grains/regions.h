@@ -17,7 +17,7 @@ namespace seapile::grains {
 inline constexpr std::int32_t kTileGrains = 512;
 
 /// Most tiles of a region that is not cut in half: fewer would leave more lanes of its blocks empty.
-inline constexpr std::int32_t kUncutTiles = 6;
+inline constexpr std::int32_t kUncutTiles = 3;
 
 /// Tiles [first_tile, last_tile).
 struct Region {

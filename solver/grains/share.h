@@ -1,52 +1,22 @@
-// What one thread of a team works on, and where it waits for the others.
+// What one thread of a crew works on, and where it waits for the others.
 #pragma once
 
-#include <omp.h>
-
 #include <array>
-#include <atomic>
 #include <bit>
 #include <chrono>
 
+#include "solver/base/crew.h"
 #include "solver/base/profile.h"
 #include "solver/grains/regions.h"
 
 namespace seapile::grains {
 
-/// Where the threads of a team wait for each other, some tens of thousands of times per second: each wait is a few
-/// microseconds of work away from the next, so a thread looks for a while before it asks the system to be woken.
-class Meeting {
- public:
-  explicit Meeting(int looks = 20'000) : looks_(looks) {}
-
-  /// Waits until all of so many threads have come.
-  void wait(int threads) {
-    const unsigned round = round_.load(std::memory_order_relaxed);
-    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads) {
-      arrived_.store(0, std::memory_order_relaxed);
-      round_.store(round + 1, std::memory_order_release);
-      // Who is asleep is asked after the new round is seen by all: a thread that lies down between would sleep on.
-      std::atomic_thread_fence(std::memory_order_seq_cst);
-      round_.notify_all();
-      return;
-    }
-    for (int look = 0; look < looks_; ++look)
-      if (round_.load(std::memory_order_acquire) != round) return;
-    round_.wait(round, std::memory_order_acquire);
-  }
-
- private:
-  int looks_;
-  alignas(64) std::atomic<int> arrived_ = 0;
-  alignas(64) std::atomic<unsigned> round_ = 0;
-};
-
-/// The regions of the calling thread of a team. Threads are divided among the two halves of a region until each has one
+/// The regions of one thread of a crew. Threads are divided among the two halves of a region until each has one
 /// of its own; a region that holds several threads' own is done by the first of them. Numbers of threads that are powers of two have
 /// equal shares.
 class Share {
  public:
-  explicit Share(const Regions& regions) : me_(omp_get_thread_num()), threads_(omp_get_num_threads()) {
+  Share(const Regions& regions, int me, int threads) : me_(me), threads_(threads) {
     shared_.fill(-1);
     levels_ = std::bit_width(static_cast<unsigned>(threads_ - 1));
     if (regions.count() == 0) return;
@@ -83,18 +53,16 @@ class Share {
 };
 
 /// Calls work(tile) for all tiles, each on the thread that has it during a step.
-void for_tiles(const Regions& regions, int threads, auto&& work) {
-#pragma omp parallel num_threads(threads) if (threads > 1)
-  {
-    const Share share(regions);
+void for_tiles(const Regions& regions, base::Crew* crew, auto&& work) {
+  base::together(crew, [&](int me, int threads) {
+    const Share share(regions, me, threads);
     for (std::int32_t tile = share.first_tile; tile < share.last_tile; ++tile) work(tile);
-  }
+  });
 }
 
 /// Calls work(region) for all regions, in no order, each on the thread that has it during a step.
-void for_regions(const Regions& regions, int threads, auto&& work) {
-#pragma omp parallel num_threads(threads) if (threads > 1)
-  Share(regions).each(work);
+void for_regions(const Regions& regions, base::Crew* crew, auto&& work) {
+  base::together(crew, [&](int me, int threads) { Share(regions, me, threads).each(work); });
 }
 
 /// Adds the seconds since the last lap to a part of the profile.
@@ -113,11 +81,11 @@ class Laps {
   Clock::time_point last_;
 };
 
-/// A thread of a team during a step. Its parts of the profile are those of the first thread.
+/// A thread of a crew during a step. The profile is that of the first thread.
 class Worker : public Share {
  public:
-  Worker(const Regions& regions, Meeting& meeting, base::Profile& profile, std::size_t waiting)
-      : Share(regions), meeting_(meeting), laps_(profile), waiting_(waiting) {}
+  Worker(const Regions& regions, base::Crew* crew, int me, int threads, base::Profile& profile, std::size_t waiting)
+      : Share(regions, me, threads), crew_(crew), laps_(profile), waiting_(waiting) {}
 
   /// The time up to now went into a part.
   void lap(std::size_t part) {
@@ -128,7 +96,7 @@ class Worker : public Share {
   void meet(std::size_t part) {
     lap(part);
     if (threads_ == 1) return;
-    meeting_.wait(threads_);
+    crew_->meet(me_);
     lap(waiting_);
   }
 
@@ -144,7 +112,7 @@ class Worker : public Share {
   }
 
  private:
-  Meeting& meeting_;
+  base::Crew* crew_;
   Laps laps_;
   std::size_t waiting_;
 };

@@ -51,8 +51,8 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   report.sweeps = law.substeps;
   Laps serial(profile);
 
-  const Closing closing = expected_closing(system, law, body, body_path, team.threads);
-  report.rebuilt = keep_lists(system, grains, box, body, closing, law.step, team.threads);
+  const Closing closing = expected_closing(system, law, body, body_path, team.crew.get());
+  report.rebuilt = keep_lists(system, grains, box, body, closing, law.step, team.crew.get());
   serial.lap(in_list);
 
   ContactBlocks<Real>& blocks = system.blocks;
@@ -75,15 +75,12 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
                  static_cast<Real>(friction), soft_real, &sums);
   };
 
-  Meeting meeting;
-#pragma omp parallel num_threads(team.threads) if (team.threads > 1)
-  {
-    Worker worker(regions, meeting, profile, in_waiting);
+  base::together(team.crew.get(), [&](int me, int threads) {
+    Worker worker(regions, team.crew.get(), me, threads, profile, in_waiting);
 
     // Detection: normals and gaps, and the velocity change by the impulses kept from the last step.
     detect(worker, in_detection, system, refresh);
-#pragma omp master
-    {
+    if (worker.leads()) {
       if (body) detect_body_contacts(*body, grains, system);
       if (law.restitution > 0) {
         const base::Vec2 driven{0, body_path.empty() ? 0 : -body_path.front() / h};
@@ -109,8 +106,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
       });
 
       // The rigid body: its own velocity, prescribed, or by gravity, its force and its warm start; then its contacts.
-#pragma omp master
-      if (body) {
+      if (worker.leads() && body) {
         body_before = body->velocity;
         if (!body_path.empty())
           body->velocity = {0, -(body_path[k] - (k > 0 ? body_path[k - 1] : 0.0)) / h};
@@ -141,7 +137,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
     worker.each([&](std::int32_t region) { own_touching += touching_in(blocks, region); });
     touching += own_touching;
     worker.lap(in_places);
-  }
+  });
 
   if (body) move_body(*body);
   if (law.restitution > 0) rebound(system, grains, law, body, totals);

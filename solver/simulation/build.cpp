@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,7 @@ grains::Team team_of(const Execution& execution) {
     case Simd::avx2: set = InstructionSet::avx2; break;
     case Simd::avx512: set = InstructionSet::avx512; break;
   }
-  return {std::max(1, execution.threads), set};
+  return {execution.threads > 1 ? std::make_shared<base::Crew>(execution.threads) : nullptr, set};
 }
 
 grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& contact) {

@@ -254,12 +254,13 @@ TYPED_TEST(ContactInvariants, KeepingImpulsesChangesNoBit) {
 
 TYPED_TEST(ContactInvariants, ThreadsAndInstructionSetsChangeNoBit) {
   const auto run_with = [](int threads, InstructionSet set) {
-    auto scene = support::heap<TypeParam>(600, 30, 0.012, 0.02, 10);
+    auto scene = support::heap<TypeParam>(2000, 50, 0.012, 0.02, 10);
     scene.law.restitution = 0.2;
-    scene.team = {threads, set};
+    scene.team = {std::make_shared<base::Crew>(threads), set};
     scene.steps(300);
     return scene;
   };
+  ASSERT_GE(Regions(2000)[Regions(2000).count() - 1].first_half, 0) << "one region has nothing to share";
   const auto expected = run_with(1, InstructionSet::generic);
   for (const auto& [threads, set] : {std::pair{1, InstructionSet::avx2},
                                      {1, InstructionSet::avx512},
@@ -268,7 +269,7 @@ TYPED_TEST(ContactInvariants, ThreadsAndInstructionSetsChangeNoBit) {
                                      {4, InstructionSet::avx2}}) {
     if (!available(set)) continue;
     const auto found = run_with(threads, set);
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 2000; ++i) {
       ASSERT_EQ(found.disc(i).x, expected.disc(i).x) << threads << " threads, grain " << i;
       ASSERT_EQ(found.disc(i).y, expected.disc(i).y) << threads << " threads, grain " << i;
       ASSERT_EQ(found.spin(i), expected.spin(i)) << threads << " threads, grain " << i;

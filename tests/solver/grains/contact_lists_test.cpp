@@ -153,7 +153,8 @@ TEST(ContactLists, AnyNumberOfThreadsMakesTheSameList) {
   for (const int threads : {2, 3, 7}) {
     ContactScene<double> scene(discs);
     scene.box = box;
-    list_contacts(scene.system, scene.grains, box, threads);
+    base::Crew crew(threads);
+    list_contacts(scene.system, scene.grains, box, &crew);
     EXPECT_TRUE(scene.system.pair == one.system.pair);
     EXPECT_TRUE(scene.system.pair_slot == one.system.pair_slot);
     EXPECT_TRUE(scene.system.blocks.wall_slot == one.system.blocks.wall_slot);

@@ -4,35 +4,10 @@
 
 #include <atomic>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace seapile::grains {
 namespace {
-
-// Without looks every wait asks the system, which is where a wake-up can be lost: the test then never ends. Between two
-// meetings each thread writes what the others read, so that one that runs ahead is seen.
-TEST(Meeting, NobodyRunsAheadAndNobodySleepsOn) {
-  constexpr int kRounds = 20'000;
-  for (const int looks : {0, 50, 20'000})
-    for (const int threads : {2, 3}) {
-      Meeting meeting(looks);
-      std::vector<int> written(threads, 0);
-      std::vector<int> wrong(threads, 0);
-      std::vector<std::thread> team;
-      for (int me = 0; me < threads; ++me)
-        team.emplace_back([&, me] {
-          for (int round = 1; round <= kRounds / (looks == 0 ? 1 : 10); ++round) {
-            written[me] = round;
-            meeting.wait(threads);
-            for (const int other : written) wrong[me] += other != round;
-            meeting.wait(threads);
-          }
-        });
-      for (std::thread& one : team) one.join();
-      EXPECT_EQ(wrong, std::vector<int>(threads, 0)) << looks << " looks, " << threads << " threads";
-    }
-}
 
 // What each thread does, and when: `turn` counts the work of all.
 struct Done {
@@ -47,17 +22,16 @@ TEST(Share, EveryRegionIsDoneOnceAfterAllThatItHolds) {
       std::vector<Done> done(regions.count()), each(regions.count());
       std::vector<int> tile_of(regions.tiles(), -1);
       std::atomic<int> turn = 0;
-      Meeting meeting;
+      base::Crew crew(threads);
       base::Profile profile;
       const std::size_t part = profile.index("work"), waiting = profile.index("waiting");
-#pragma omp parallel num_threads(threads)
-      {
-        Worker worker(regions, meeting, profile, waiting);
-        for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) tile_of[tile] = omp_get_thread_num();
-        worker.climb(part, [&](std::int32_t r) { done[r] = {turn++, omp_get_thread_num(), done[r].times + 1}; });
+      crew.run([&](int me, int all) {
+        Worker worker(regions, &crew, me, all, profile, waiting);
+        for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) tile_of[tile] = me;
+        worker.climb(part, [&](std::int32_t r) { done[r] = {turn++, me, done[r].times + 1}; });
         worker.meet(part);
-        worker.each([&](std::int32_t r) { each[r] = {0, omp_get_thread_num(), each[r].times + 1}; });
-      }
+        worker.each([&](std::int32_t r) { each[r] = {0, me, each[r].times + 1}; });
+      });
       for (std::int32_t r = 0; r < regions.count(); ++r) {
         EXPECT_EQ(done[r].times, 1);
         EXPECT_EQ(each[r].times, 1);

@@ -187,7 +187,7 @@ TEST(Bed, ProgressRisesFromTheStartToTheEnd) {
 
 // A coarse settling, because eight threads on two processors wait for each other.
 TEST(Bed, HasTheSameBitsForAnyNumberOfThreads) {
-  scene::BedSpec spec = small_bed(600, 1.2);
+  scene::BedSpec spec = small_bed(1600, 1.8);
   spec.preparation.contact.step = 1e-3;
   spec.preparation.contact.substeps = 4;
   const Bed one = prepare_bed(spec, {}, {1, Simd::generic}, {});

@@ -23,7 +23,7 @@ using support::settled;
 using support::small_drive;
 using support::values;
 
-// Two thousand grains: four tiles and several chunks between them, so that threads have something to share out.
+// Two thousand grains: four tiles in two halves, so that threads have something to share out.
 scene::SceneSpec scene_of_2000(const pile::Tip& tip) {
   scene::SceneSpec scene = small_drive(2000, 1.8, tip);
   scene.pile->depth = 0.08;
