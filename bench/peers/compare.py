@@ -144,17 +144,19 @@ def force(options, work):
     peers_usual = options.stiffness[0], options.dt
     for seed in range(options.first, options.seeds + 1):
         kept = [r for r in rows if r["seed"] == seed]
-        ours = {(r["code"], r["solves"]) for r in kept}
+        ours = {(r["code"], r["solves"]): r["force_mean"] for r in kept}
         peers = {(r["code"], r["kn"], r["dt"]) for r in kept}
         substeps = [n for n in options.substeps if ("ours", n) not in ours]
         sweeps = [n for n in options.sweeps if ("nonsmooth", n) not in ours]
         codes = [code for code in options.codes if (code, *map(recorded, peers_usual)) not in peers]
         if not (substeps or sweeps or codes):
             continue
-        # There is no state without a run of ours; the usual one is cheap, and not recorded twice.
+        # There is no state without a run of ours. The usual one is cheap, and shows that the state is the one of the rows.
         state = scene(options, work / f"seed_{seed}", seed, substeps or [OUR_USUAL], sweeps)
-        if any(r["solid_fraction"] != recorded(state.facts["solid_fraction"]) for r in kept):
-            raise Failed(f"{path} has another bed of seed {seed}: give its --solid-fraction and program, or leave --keep")
+        new = our_rows(state, options)
+        if (any(r["solid_fraction"] != recorded(state.facts["solid_fraction"]) for r in kept)
+                or any(ours.get((r["code"], r["solves"]), recorded(r["force_mean"])) != recorded(r["force_mean"]) for r in new)):
+            raise Failed(f"{path} has another bed or run of seed {seed}: give its options and program, or leave --keep")
 
         def add(new):
             rows.extend(row | {"seed": seed} for row in new)
@@ -162,7 +164,7 @@ def force(options, work):
             for row in new:
                 said(f"seed {seed}, {row['code']}: {row['force_mean']:.0f} N/m (block s.e. {row['force_se']:.0f})")
 
-        add([row for row in our_rows(state, options) if (row["code"], row["solves"]) not in ours])
+        add([row for row in new if (row["code"], row["solves"]) not in ours])
         for code in codes:
             add([completed(state.run(code, *peers_usual, sample=1), code, options, state.facts)])
         shutil.rmtree(state.folder)

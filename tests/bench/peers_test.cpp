@@ -1,4 +1,5 @@
 // The verdicts of the comparison with other codes (bench/peers/README.md): the programs, run as a user runs them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -104,15 +105,15 @@ class PeerTable : public testing::Test {
  protected:
   void SetUp() override {
     if (shell("python3 --version").exit_code != 0) GTEST_SKIP() << "python3 is not installed";
-    std::filesystem::create_directories(folder_);
+    std::filesystem::create_directories(folder);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
 
   Finished table(const std::vector<std::string>& lines) const {
-    std::ofstream file(folder_ / "force.csv");
+    std::ofstream file(folder / "force.csv");
     for (const std::string& line : lines) file << line << '\n';
     file.close();
-    return shell("python3 -B '" SEAPILE_SOURCE_DIR "/bench/peers/compare.py' table '" + folder_.string() +
+    return shell("python3 -B '" SEAPILE_SOURCE_DIR "/bench/peers/compare.py' table '" + folder.string() +
                  "' --peer-pairs '" SEAPILE_PEER_PAIRS "'");
   }
 
@@ -123,8 +124,8 @@ class PeerTable : public testing::Test {
     std::vector<std::string> lines;
     for (int k = 0; k < 4; ++k) {
       const auto add = [&](const std::string& code, const std::string& how, double force, const std::string& residual) {
-        lines.push_back(code + ",1234567," + std::to_string(k + 1) + ",0.80" + std::to_string(k) + ",conical,0.06," +
-                        how + ",0.6,0.8," + std::to_string(force) + ",1,0.01," + residual + ",5");
+        lines.push_back(fmt::format("{},1234567,{},0.80{},conical,0.06,{},0.6,0.8,{:.10f},1,0.01,{},5", code, k + 1, k,
+                                    how, force, residual));
       };
       add("ours", "10,,5e-05", ours[k], "0.001");
       add("nonsmooth", "200,,0.0001", sweeps_200[k], "0.0002");
@@ -134,9 +135,9 @@ class PeerTable : public testing::Test {
     return lines;
   }
 
-  std::filesystem::path folder_ =
+  std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("seapile_peers_" + std::to_string(::getpid()));
-  const std::string head_ =
+  const std::string head =
       "code,version,seed,solid_fraction,tip,speed,solves,kn,dt,from,end,force_mean,force_se,overlap_p999,residual,"
       "cpu_per_s";
 };
@@ -149,7 +150,7 @@ std::string narrow(std::string text) {
 
 TEST_F(PeerTable, JudgesEveryMethodBedByBed) {
   std::vector<std::string> lines = rows();
-  lines.insert(lines.begin(), head_);
+  lines.insert(lines.begin(), head);
   const Finished finished = table(lines);
   ASSERT_EQ(finished.exit_code, 0) << finished.text;
   const std::string text = narrow(finished.text);
@@ -164,12 +165,12 @@ TEST_F(PeerTable, JudgesEveryMethodBedByBed) {
 
 TEST_F(PeerTable, DoesNotMindTheOrderOfRowsNorTablesOneAfterTheOther) {
   std::vector<std::string> lines = rows();
-  lines.insert(lines.begin(), head_);
+  lines.insert(lines.begin(), head);
   const std::string expected = table(lines).text;
   lines = rows();
   std::ranges::reverse(lines);
-  lines.insert(lines.begin() + 7, head_);
-  lines.insert(lines.begin(), head_);
+  lines.insert(lines.begin() + 7, head);
+  lines.insert(lines.begin(), head);
   EXPECT_EQ(table(lines).text, expected);
 }
 
@@ -179,7 +180,7 @@ TEST_F(PeerTable, RefusesRowsThatContradictEachOther) {
   const std::string other_speed = "liggghts,3.8.0,1,0.800,conical,0.4,,1e+08,2e-05,0.6,0.8,101,1,0.01,,5";
   for (const std::string& line : {other_force, other_bed, other_speed}) {
     std::vector<std::string> lines = rows();
-    lines.insert(lines.begin(), head_);
+    lines.insert(lines.begin(), head);
     lines.push_back(line);
     const Finished finished = table(lines);
     EXPECT_EQ(finished.exit_code, 1) << line;
@@ -188,7 +189,8 @@ TEST_F(PeerTable, RefusesRowsThatContradictEachOther) {
   }
 }
 
-/// Stands for peer_scene: notes what it is asked for, and says that every force is 100 N/m.
+/// Stands for peer_scene: notes what it is asked for, and says that every force is 100 N/m; by another name, has
+/// another bed or force.
 constexpr const char* kFakeScene = R"(#!/usr/bin/env python3
 import json, sys
 from pathlib import Path
@@ -196,29 +198,30 @@ asked = dict(word.split("=", 1) for word in sys.argv[2:])
 seed, out = float(asked["--seed"]), Path(asked["--out"])
 with open(Path(__file__).parent / "asked", "a") as file:
     print(f"{seed:g}:", asked["--substeps"], asked.get("--sweeps", ""), file=file)
-bed = 0.8 if Path(__file__).name == "scene" else 0.81
+bed = 0.81 if Path(__file__).name == "other_bed" else 0.8
+newtons = 101 if Path(__file__).name == "other_force" else 100
 (out / "state.json").write_text(json.dumps({"seed": seed, "solid_fraction": bed + 1e-8 * seed, "start": 0.55, "from": 0.6, "end": 0.8}))
 rows = ["method,solves,dt,simulated,cpu,wall,overlap_p999,recorded_p999,residual"]
 for method, option in ("soft", "--substeps"), ("nonsmooth", "--sweeps"):
     for n in asked.get(option, "").split(","):
         if n:
             rows.append(f"{method},{n},1e-4,1,1,1,0.01,0.01,0.001")
-            force = "".join(f"{0.6 + 0.01 * k},1,100\n" for k in range(20))
+            force = "".join(f"{0.6 + 0.01 * k},1,{newtons}\n" for k in range(20))
             (out / f"force_{method}_{n}.csv").write_text("depth,span,force\n" + force)
 (out / "ours.csv").write_text("\n".join(rows) + "\n")
 )";
 
-TEST_F(PeerTable, KeepRunsOnlyWhatIsLackingAndRefusesAnotherBed) {
-  for (const char* name : {"scene", "other_scene"}) {
-    std::ofstream(folder_ / name) << kFakeScene;
-    std::filesystem::permissions(folder_ / name, std::filesystem::perms::owner_all);
+TEST_F(PeerTable, KeepRunsOnlyWhatIsLackingAndRefusesAnotherBedOrProgram) {
+  for (const char* name : {"scene", "other_bed", "other_force"}) {
+    std::ofstream(folder / name) << kFakeScene;
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
   }
   const auto force = [&](const std::string& options, const std::string& program = "scene") {
-    return shell("python3 -B '" SEAPILE_SOURCE_DIR "/bench/peers/compare.py' force '" + folder_.string() +
-                 "' --codes none --peer-pairs '" SEAPILE_PEER_PAIRS "' --peer-scene '" + (folder_ / program).string() +
+    return shell("python3 -B '" SEAPILE_SOURCE_DIR "/bench/peers/compare.py' force '" + folder.string() +
+                 "' --codes none --peer-pairs '" SEAPILE_PEER_PAIRS "' --peer-scene '" + (folder / program).string() +
                  "' " + options);
   };
-  const auto content = [&](const char* name) { return shell("cat '" + (folder_ / name).string() + "'").text; };
+  const auto content = [&](const char* name) { return shell("cat '" + (folder / name).string() + "'").text; };
   for (const char* options : {"--seeds 1 --sweeps 100", "--keep --seeds 2 --sweeps 100,200", "--keep --seeds 2"}) {
     const Finished finished = force(options);
     ASSERT_EQ(finished.exit_code, 0) << finished.text;
@@ -227,9 +230,11 @@ TEST_F(PeerTable, KeepRunsOnlyWhatIsLackingAndRefusesAnotherBed) {
   const std::string kept = content("force.csv");
   EXPECT_EQ(std::ranges::count(kept, '\n'), 1 + 2 * 3) << kept;
 
-  const Finished refused = force("--keep --seeds 2 --sweeps 400", "other_scene");
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.text, HasSubstr("another bed of seed 1"));
+  for (const char* program : {"other_bed", "other_force"}) {
+    const Finished refused = force("--keep --seeds 2 --sweeps 400", program);
+    EXPECT_EQ(refused.exit_code, 1) << program;
+    EXPECT_THAT(refused.text, HasSubstr("another bed or run of seed 1"));
+  }
   EXPECT_EQ(force("--keep --seeds 2 --speed 0.4").exit_code, 1);
   EXPECT_EQ(force("--first 3 --seeds 2").exit_code, 2);
   EXPECT_EQ(content("force.csv"), kept);
