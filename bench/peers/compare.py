@@ -6,8 +6,8 @@
   compare.py tune MACHINE    what the peers' own settings change: bench/peers/MACHINE/tune.csv
   compare.py table MACHINE   prints what is recorded
 
-Runs follow one another, one core each. Exit codes: 0 done, 1 a program failed, 2 bad options or a program that is not
-there, 130 interrupted; the tables then hold the runs that were finished.
+Runs follow one another, one core each. Exit codes: 0 done, 1 a program failed or a table contradicts itself, 2 bad options
+or a program that is not there, 130 interrupted; the tables then hold the runs that were finished.
 """
 
 import argparse
@@ -22,7 +22,7 @@ from pathlib import Path
 
 from programs import HERE, OUR_USUAL, REFERENCE_STIFFNESS, ROOT, Failed, Scene, missing, our_version
 from report import print_cost, print_force
-from tables import block_mean, read_csv, write_csv, write_text
+from tables import block_mean, read_csv, recorded, write_csv, write_text
 
 COST = ["code", "version", "setting", "ranks", "solves", "kn", "dt", "simulated", "steps", "cpu", "cpu_per_s",
         "wall_per_s", "overlap_p999", "overlap_mean", "overlap_max", "contacts", "force_mean", "force_se",
@@ -52,12 +52,12 @@ def machine(path):
                      f"{platform.release()}; load at the start {load}; seapile {our_version()}\n")
 
 
-def scene(options, folder, seed, substeps):
+def scene(options, folder, seed, substeps, sweeps=()):
     return Scene(options.peer_scene, folder, {
         "seed": seed, "solid-fraction": options.solid_fraction, "tip": options.tip, "speed": options.speed,
         "start": options.start, "from": options.from_depth, "end": options.end,
         "substeps": ",".join(str(n) for n in substeps), "moments": options.moments,
-        "sweeps": ",".join(str(n) for n in options.sweeps) or None})
+        "sweeps": ",".join(str(n) for n in sweeps) or None})
 
 
 def completed(row, code, options, facts):
@@ -139,24 +139,34 @@ def force(options, work):
     path = options.record / "force.csv"
     rows = read_csv(path) if options.keep and path.exists() else []
     asked = {"tip": options.tip, "speed": options.speed, "from": options.from_depth, "end": options.end}
-    if any(r[name] != value for r in rows for name, value in asked.items()):
+    if any(r[name] != (value if name == "tip" else recorded(value)) for r in rows for name, value in asked.items()):
         raise Failed(f"{path} has rows of another tip, speed or depth: give those, or leave --keep")
-    done = {(r["code"], int(r["seed"])) for r in rows}
+    peers_usual = options.stiffness[0], options.dt
     for seed in range(options.first, options.seeds + 1):
-        lacking = [code for code in ["ours", *options.codes] if (code, seed) not in done]
-        if not lacking:
+        kept = [r for r in rows if r["seed"] == seed]
+        ours = {(r["code"], r["solves"]): r["force_mean"] for r in kept}
+        peers = {(r["code"], r["kn"], r["dt"]) for r in kept}
+        substeps = [n for n in options.substeps if ("ours", n) not in ours]
+        sweeps = [n for n in options.sweeps if ("nonsmooth", n) not in ours]
+        codes = [code for code in options.codes if (code, *map(recorded, peers_usual)) not in peers]
+        if not (substeps or sweeps or codes):
             continue
-        state = scene(options, work / f"seed_{seed}", seed, options.substeps)
-        for code in lacking:
-            if code == "ours":
-                new = our_rows(state, options)
-            else:
-                row = state.run(code, options.stiffness[0], options.dt, sample=1)
-                new = [completed(row, code, options, state.facts)]
-            rows += [row | {"seed": seed} for row in new]
+        # There is no state without a run of ours. The usual one is cheap, and shows that the state is the one of the rows.
+        state = scene(options, work / f"seed_{seed}", seed, substeps or [OUR_USUAL], sweeps)
+        new = our_rows(state, options)
+        if (any(r["solid_fraction"] != recorded(state.facts["solid_fraction"]) for r in kept)
+                or any(ours.get((r["code"], r["solves"]), recorded(r["force_mean"])) != recorded(r["force_mean"]) for r in new)):
+            raise Failed(f"{path} has another bed or run of seed {seed}: give its options and program, or leave --keep")
+
+        def add(new):
+            rows.extend(row | {"seed": seed} for row in new)
             write_csv(path, FORCE, rows)
             for row in new:
                 said(f"seed {seed}, {row['code']}: {row['force_mean']:.0f} N/m (block s.e. {row['force_se']:.0f})")
+
+        add([row for row in new if (row["code"], row["solves"]) not in ours])
+        for code in codes:
+            add([completed(state.run(code, *peers_usual, sample=1), code, options, state.facts)])
         shutil.rmtree(state.folder)
 
 
@@ -177,7 +187,7 @@ def tune(options, work):
 
 def print_recorded(options):
     found = False
-    for name, show in (("cost.csv", print_cost), ("force.csv", print_force)):
+    for name, show in (("cost.csv", print_cost), ("force.csv", lambda rows: print_force(rows, options.peer_pairs))):
         if (options.record / name).exists():
             found = True
             show(read_csv(options.record / name))
@@ -194,7 +204,9 @@ def arguments():
                             ("table", "prints what is recorded")):
         p = commands.add_parser(name, help=help_text)
         p.add_argument("machine", help="name of the folder below bench/peers")
+        p.add_argument("--peer-pairs", default=ROOT / "build/release/bench/peer_pairs", type=Path, help="the program of verdicts")
         if name == "table":
+            p.set_defaults(codes=[], ranks=[])
             continue
         p.add_argument("--peer-scene", default=ROOT / "build/release/bench/peer_scene", type=Path, help="the program")
         p.add_argument("--codes", type=lambda text: [w for w in text.split(",") if w != "none"], default=["lammps", "liggghts"], help="peers, with commas; none: ours alone")
@@ -222,26 +234,25 @@ def arguments():
             if name == "cost" else p.set_defaults(ranks=[1])
     options = parser.parse_args()
     options.record = HERE / options.machine
-    options.sweeps = getattr(options, "sweeps", [])
     if options.command != "table":
         unknown = set(options.codes) - {"lammps", "liggghts"}
         if unknown:
             parser.error(f"--codes: {', '.join(sorted(unknown))} is not lammps or liggghts")
         if not 0 < options.start < options.from_depth < options.end < 1.5:
             parser.error("--start, --from, --end must rise, above 0 and below 1.5")
+    if options.command == "force" and not 0 < options.first <= options.seeds:
+        parser.error("--first must be above 0 and not above --seeds")
     return options
 
 
-def main():
-    options = arguments()
+def programs(options):
+    """Ours that the command runs."""
     if options.command == "table":
-        return print_recorded(options)
-    lines = missing(options.codes, options.ranks, options.peer_scene)
-    for line in lines:
-        print(f"compare.py: {line}", file=sys.stderr)
-    if lines:
-        sys.exit(2)
+        return [options.peer_pairs] if (options.record / "force.csv").exists() else []
+    return [options.peer_scene] if options.command == "tune" else [options.peer_scene, options.peer_pairs]
 
+
+def measure(options):
     def stop(*_):
         raise KeyboardInterrupt
 
@@ -250,15 +261,27 @@ def main():
     try:
         machine(options.record / f"{options.command}_machine.txt")
         {"cost": cost, "force": force, "tune": tune}[options.command](options, work)
-    except Failed as failed:
-        sys.exit(f"compare.py: {failed}")
     except KeyboardInterrupt:
         print(f"compare.py: interrupted; {options.record} holds the runs that were finished", file=sys.stderr)
         sys.exit(130)
     finally:
         shutil.rmtree(work, ignore_errors=True)
-    if options.command != "tune":
-        print_recorded(options)
+
+
+def main():
+    options = arguments()
+    lines = missing(options.codes, options.ranks, programs(options))
+    for line in lines:
+        print(f"compare.py: {line}", file=sys.stderr)
+    if lines:
+        sys.exit(2)
+    try:
+        if options.command != "table":
+            measure(options)
+        if options.command != "tune":
+            print_recorded(options)
+    except Failed as failed:
+        sys.exit(f"compare.py: {failed}")
 
 
 if __name__ == "__main__":

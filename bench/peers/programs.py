@@ -29,7 +29,7 @@ class Failed(Exception):
     """A program ended with an error; the text is one line."""
 
 
-def missing(codes, ranks, peer_scene):
+def missing(codes, ranks, ours):
     """One line for each program that is not there."""
     lines = []
     for code in codes:
@@ -37,8 +37,9 @@ def missing(codes, ranks, peer_scene):
             lines.append(f"{PROGRAM[code]} is not installed (Debian package {code}; bench/peers/packages.txt)")
     if any(n > 1 for n in ranks) and not shutil.which("mpirun"):
         lines.append("mpirun is not installed (Debian package openmpi-bin; bench/peers/packages.txt)")
-    if not os.access(peer_scene, os.X_OK):
-        lines.append(f"{peer_scene} is not built (cmake --build --preset release --target peer_scene)")
+    for program in ours:
+        if not os.access(program, os.X_OK):
+            lines.append(f"{program} is not built (cmake --build --preset release --target {program.name})")
     return lines
 
 
@@ -67,6 +68,15 @@ def execute(command, log):
         why = [l for l in lines if "ERROR" in l and "ORTE" not in l] or [l for l in lines if l.strip()] or ["no output"]
         raise Failed(f"{Path(command[0]).name} ended with {child.returncode}: {why[-1 if 'ERROR' not in why[0] else 0].strip()}")
     return usage.ru_utime + usage.ru_stime
+
+
+def equivalence(peer_pairs, pairs, margin):
+    """What peer_pairs says of pairs (a, b): whether b / a is 1 within the margin."""
+    text = "".join(f"{a!r} {b!r}\n" for a, b in pairs)
+    done = subprocess.run([str(Path(peer_pairs).resolve()), f"--margin={margin!r}"], input=text, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Failed(done.stderr.strip() or f"{peer_pairs} ended with {done.returncode}")
+    return json.loads(done.stdout)
 
 
 def rows_of(text):

@@ -7,6 +7,7 @@ import os
 import tempfile
 
 BLOCKS = 10
+TEXTS = {"code", "version", "setting", "tip", "reason", "change"}  # columns; a version may look like a number
 
 
 def block_mean(forces, start, end):
@@ -43,13 +44,22 @@ def interpolate(points, x):
     return None
 
 
+def digits(value):
+    return f"{value:.6g}"
+
+
+def recorded(value):
+    """A number as it is read from a table again."""
+    return float(digits(value))
+
+
 def write_csv(path, columns, rows):
     """The whole table at once, or nothing: a reader never sees a part of it."""
     text = io.StringIO()
     writer = csv.DictWriter(text, columns, extrasaction="ignore", restval="", lineterminator="\n")
     writer.writeheader()
     for row in rows:
-        writer.writerow({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()})
+        writer.writerow({k: digits(v) if isinstance(v, float) else v for k, v in row.items()})
     write_text(path, text.getvalue())
 
 
@@ -67,9 +77,11 @@ def write_text(path, text):
 
 
 def read_csv(path):
-    """Rows with numbers as numbers."""
+    """Rows with numbers as numbers. Tables may follow one another in the file, each with the same head."""
     with open(path, newline="") as file:
-        return [{k: number(v) for k, v in row.items()} for row in csv.DictReader(file)]
+        reader = csv.DictReader(file)
+        return [{k: v if k in TEXTS else number(v) for k, v in row.items()} for row in reader
+                if list(row.values()) != reader.fieldnames]
 
 
 def number(text):
