@@ -112,7 +112,7 @@ std::vector<Traffic> traffic_of(const TrafficCounts& c, double substeps) {
   Traffic places{"places", (kBody + kBefore + sizeof(double)) * c.grains + kRow * c.active + c.blocks, kDisc * c.grains,
                  0, step_set};
   // The fastest grain is looked for by one thread.
-  Traffic list{"neighbour list", kBody * c.grains, 0, 0, step_set};
+  Traffic list{"neighbour list", kMotion * c.grains, 0, 0, step_set};
   for (Traffic* t : {&detection, &places, &list}) {
     t->read *= per_substep, t->update *= per_substep, t->write *= per_substep;
     parts.push_back(*t);
