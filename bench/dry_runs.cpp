@@ -7,53 +7,23 @@
 // machine under load, can be compared by cycles. Work counters do not depend on the machine at all.
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "bench/measure.h"
 #include "solver/simulation/run.h"
 
 using namespace seapile;
+using namespace seapile::bench;
 using namespace seapile::simulation;
 
 namespace {
 
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Cycles per nanosecond, from dependent integer multiplications.
-double clock_rate() {
-  constexpr long kCount = 100'000'000;
-  const double start = cpu_seconds();
-  unsigned long product = 3;
-  for (long k = 0; k < kCount; ++k) __asm__ volatile("imul %0,%0" : "+r"(product));
-  return 3 * static_cast<double>(kCount) / (cpu_seconds() - start) * 1e-9;
-}
-
-struct Cost {
-  double clock, cpu, wall;
-};
-template <class Work>
-Cost measured(Work&& work) {
-  const double clock = clock_rate();
-  const double cpu = cpu_seconds();
-  const auto wall = std::chrono::steady_clock::now();
-  work();
-  return {clock, cpu_seconds() - cpu, std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count()};
-}
-
-const char* const kParts[] = {"neighbour list", "contact detection", "sweeps", "waiting", "pile contacts", "places"};
-
 void row(const std::string& run, double substep, int threads, double simulated, const Cost& cost, double contact_substeps,
          double overlap, double mean_force, const std::vector<ProfileEntry>& profile) {
-  std::map<std::string, double> seconds;
-  for (const ProfileEntry& e : profile) seconds[e.part] = e.seconds;
+  std::map<std::string, double> seconds = seconds_of(profile);
   std::printf("%s,%g,%d,%.3f,%.2f,%.2f,%.2f,%.3g,%.2f,%.4f,%.0f", run.c_str(), substep, threads, simulated, cost.clock, cost.cpu,
               cost.wall, contact_substeps, cost.cpu * cost.clock * 1e9 / contact_substeps, overlap, mean_force);
   double parts = 0;
@@ -63,12 +33,6 @@ void row(const std::string& run, double substep, int threads, double simulated, 
   }
   std::printf(",%.2f\n", cost.wall - parts);
   std::fflush(stdout);
-}
-
-double metric(const std::vector<Metric>& metrics, const std::string& name) {
-  for (const Metric& m : metrics)
-    if (m.name == name) return m.value;
-  return 0;
 }
 
 }  // namespace
@@ -84,9 +48,9 @@ int main(int argc, char** argv) {
   app.add_option("--substeps", substeps, "per step of 5e-4 s")->delimiter(',');
   app.add_option("--threads", execution.threads, "of one run");
   app.add_option("--depth", depth, "to which the pile is driven [m]");
-  app.add_option("--simd", simd, "best, generic, avx2 or avx512")->check(CLI::IsMember({"best", "generic", "avx2", "avx512"}));
+  app.add_option("--simd", simd, "best, generic, avx2 or avx512")->check(CLI::IsMember(kSimdWords));
   CLI11_PARSE(app, argc, argv);
-  execution.simd = simd == "generic" ? Simd::generic : simd == "avx2" ? Simd::avx2 : simd == "avx512" ? Simd::avx512 : Simd::best;
+  execution.simd = simd_named(simd);
 
   std::printf("run,substep[s],threads,simulated[s],clock[GHz],cpu[s],wall[s],contact_substeps,cycles_per_contact_substep,overlap_max,pile_force_mean[N/m]");
   for (const char* part : kParts) std::printf(",%s[s]", part);
@@ -96,7 +60,7 @@ int main(int argc, char** argv) {
   Bed bed;
   const Cost bed_cost = measured([&] { bed = prepare_bed(scene.bed, {}, execution, {}); });
   double bed_work = 0;
-  for (const Record& r : bed.records) bed_work += r.contacts * r.span / scene.contact.step * static_cast<double>(scene.contact.substeps);
+  for (const Record& r : bed.records) bed_work += contact_substeps(r, scene.contact);
   row("bed", scene.contact.step / static_cast<double>(scene.contact.substeps), execution.threads, bed.records.back().time, bed_cost,
       bed_work, metric(bed.metrics, "overlap_max"), 0, bed.profile);
 
@@ -109,7 +73,7 @@ int main(int argc, char** argv) {
       RunResult result;
       double work = 0;
       RunHooks hooks;
-      hooks.record = [&](const Record& r) { work += r.contacts * r.span / scene.contact.step * n; };
+      hooks.record = [&](const Record& r) { work += contact_substeps(r, scene.contact); };
       const Cost cost = measured([&] { result = run(scene, {}, bed, execution, {}, {}, hooks); });
       char name[40];
       std::snprintf(name, sizeof name, "conical %g m/s", speed);
