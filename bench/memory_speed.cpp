@@ -1,6 +1,5 @@
 #include "bench/memory_speed.h"
 
-#include <omp.h>
 #include <sys/mman.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "solver/base/crew.h"
 
 // One version per instruction set, chosen when the program starts: the build itself asks for none.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -92,9 +92,8 @@ double memory_speed(Access access, std::size_t bytes, int threads, int repeat, b
                     size = std::max<std::size_t>(1, (bytes + block - 1) / block) * block;
   const long passes = static_cast<long>(std::max<std::size_t>(1, kMinimumBytes / size));
   std::vector<double> own(threads), speed;
-#pragma omp parallel num_threads(threads)
-  {
-    const int me = omp_get_thread_num();
+  base::Crew crew(threads);
+  crew.run([&](int me, int) {
     // Each thread touches its array first, so that it lies with its core.
     const std::align_val_t alignment{kHugePage};
     void* memory = ::operator new(size + kHugePage, alignment);
@@ -103,16 +102,15 @@ double memory_speed(Access access, std::size_t bytes, int threads, int repeat, b
     move(Access::write, line, size / sizeof(Line), 1);
     move(access, line, size / sizeof(Line), 1);
     for (int k = 0; k < repeat; ++k) {
-#pragma omp barrier
+      crew.meet(me);
       const double start = thread_seconds();
       move(access, line, size / sizeof(Line), passes);
       own[me] = 1e-9 * static_cast<double>(size) * static_cast<double>(passes) / (thread_seconds() - start);
-#pragma omp barrier
-#pragma omp single
-      speed.push_back(std::accumulate(own.begin(), own.end(), 0.0));
+      crew.meet(me);
+      if (me == 0) speed.push_back(std::accumulate(own.begin(), own.end(), 0.0));
     }
     ::operator delete(memory, alignment);
-  }
+  });
   return median(speed);
 }
 

@@ -310,6 +310,6 @@ std::vector<TouchingContact> touching_contacts(const AllPairs& system, const Gra
   return system.touching;
 }
 
-OverlapStatistics overlaps(const AllPairs& system, const Grains&, const RigidBody*) { return system.overlap; }
+OverlapStatistics overlaps(const AllPairs& system, const Grains&, const RigidBody*, base::Crew*) { return system.overlap; }
 
 }  // namespace seapile::grains

@@ -246,6 +246,24 @@ void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& s
   }
 }
 
+/// The bodies after the grains, and what there is of each block. Fillers do not move and stand in pairs one apart, so that their
+/// normal is a number.
+template <class Real>
+void place_fillers(ContactSystem<Real>& system, Grains& grains) {
+  const std::size_t count = grains.count();
+  const ContactBlocks<Real>& blocks = system.blocks;
+  const std::size_t bodies = (static_cast<std::size_t>(blocks.bodies) + 3) / 4 * 4;
+  system.group.resize(bodies / 4);
+  for (std::size_t body = count; body < bodies; ++body) system.motion(static_cast<std::int32_t>(body)) = {};
+  system.before.resize(bodies);
+  std::fill(system.before.begin() + static_cast<std::ptrdiff_t>(count), system.before.end(), Before<Real>{});
+  grains.disc.resize(bodies);
+  std::fill(grains.disc.begin() + static_cast<std::ptrdiff_t>(count), grains.disc.end(), Disc{});
+  for (std::size_t body = first_point(count) + blocks.wall.size() + 1; body < bodies; body += 2) grains.disc[body].x = 1;
+  system.blocks.active.assign(blocks.block.size(), 1);
+  system.blocks.step_impulse.resize(blocks.block.size());
+}
+
 }  // namespace
 
 template <class Real>
@@ -303,40 +321,30 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
   system.pair_slot.assign(pairs, 0);
 
   for_regions(regions, crew, [&](std::int32_t region) { fill(groups[region], grains, system); });
-  for (const TileList<Real>& list : lists)
-    std::copy(list.pairs.begin(), list.pairs.end(), system.pair.begin() + list.first_pair);
-
   system.listed.resize(grains.count());
-  for (std::size_t i = 0; i < grains.count(); ++i) system.listed[i] = {grains.disc[i].x, grains.disc[i].y};
+  for_tiles(regions, crew, [&](std::int32_t tile) {
+    std::copy(lists[tile].pairs.begin(), lists[tile].pairs.end(), system.pair.begin() + lists[tile].first_pair);
+    const std::int32_t last = regions.first_grain(tile + 1);
+    for (std::int32_t i = regions.first_grain(tile); i < last; ++i) system.listed[i] = {grains.disc[i].x, grains.disc[i].y};
+  });
+
   system.listed_closing = system.closing;
   ++system.rebuilds;
-  refresh_derived(system, grains);
+  place_fillers(system, grains);
 }
 
 template <class Real>
 void refresh_derived(ContactSystem<Real>& system, Grains& grains) {
   const std::size_t count = grains.count();
-  ContactBlocks<Real>& blocks = system.blocks;
   system.regions = Regions(count);
-  const std::size_t bodies = (static_cast<std::size_t>(blocks.bodies) + 3) / 4 * 4;
-
-  // Bodies after the grains do not move; fillers stand in pairs one apart, so that their normal is a number.
-  system.group.resize(bodies / 4);
-  for (std::size_t body = count; body < bodies; ++body) system.motion(static_cast<std::int32_t>(body)) = {};
-  system.before.assign(bodies, {});
+  place_fillers(system, grains);
+  system.smallest_radius = 0;
   for (std::size_t i = 0; i < count; ++i) {
     system.before[i].half_mass = static_cast<Real>(0.5 * grains.mass[i]);
     system.motion(static_cast<std::int32_t>(i)).inverse_mass = static_cast<Real>(1 / grains.mass[i]);
+    const double r = grains.disc[i].radius;
+    system.smallest_radius = i == 0 ? r : std::min(system.smallest_radius, r);
   }
-  grains.disc.resize(count);
-  grains.disc.resize(bodies);
-  for (std::size_t body = first_point(count) + blocks.wall.size() + 1; body < bodies; body += 2) grains.disc[body].x = 1;
-
-  blocks.active.assign(blocks.block.size(), 1);
-  blocks.step_impulse.assign(blocks.block.size(), {});
-  system.smallest_radius = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    system.smallest_radius = i == 0 ? grains.disc[i].radius : std::min(system.smallest_radius, grains.disc[i].radius);
 }
 
 template <class Real>

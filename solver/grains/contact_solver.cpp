@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/grains/contact_step.h"
 #include "solver/grains/nonsmooth.h"
 #include "solver/grains/soft_impulses.h"
 
@@ -49,28 +50,42 @@ std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>& system
 }
 
 template <class Real>
-OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body) {
+OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body, base::Crew* crew) {
   OverlapStatistics statistics;
+  const ContactBlocks<Real>& blocks = system.blocks;
+  const std::size_t regions = blocks.region_colour.empty() ? 0 : system.regions.count();
+  std::vector<std::vector<double>> of_region(regions);
+  std::vector<std::int64_t> between_grains(regions);
+  const auto collect = [&](std::int32_t region) {
+    const BlockRange range = blocks_of(blocks, region);
+    of_region[region].reserve(static_cast<std::size_t>(range.last - range.first) * kLanes);
+    for (std::int32_t b = range.first; b < range.last; ++b) {
+      if (!blocks.active[b]) continue;
+      const ContactBlock<Real>& block = blocks.block[b];
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double gap = static_cast<double>(block.gap[lane]);
+        if (!(block.pn[lane] > 0) && !(gap < 0)) continue;
+        const double ri = grains.disc[body_at(block.i[lane])].radius, rj = grains.disc[body_at(block.j[lane])].radius;
+        between_grains[region] += rj > 0;
+        of_region[region].push_back(std::max(-gap / (rj > 0 ? std::min(ri, rj) : ri), 0.0));
+      }
+    }
+  };
+  if (regions > 0) for_regions(system.regions, crew, collect);
+
   std::vector<double> overlap;
   double sum = 0;
-  overlap.reserve(system.blocks.block.size() * kLanes / 2);
-  for (std::size_t b = 0; b < system.blocks.block.size(); ++b) {
-    if (!system.blocks.active[b]) continue;
-    const ContactBlock<Real>& block = system.blocks.block[b];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const double gap = static_cast<double>(block.gap[lane]);
-      if (!(block.pn[lane] > 0) && !(gap < 0)) continue;
-      const double ri = grains.disc[body_at(block.i[lane])].radius, rj = grains.disc[body_at(block.j[lane])].radius;
-      statistics.between_grains += rj > 0;
-      overlap.push_back(-gap / (rj > 0 ? std::min(ri, rj) : ri));
-    }
+  overlap.reserve(blocks.block.size() * kLanes);
+  for (std::size_t region = 0; region < regions; ++region) {
+    overlap.insert(overlap.end(), of_region[region].begin(), of_region[region].end());
+    statistics.between_grains += between_grains[region];
   }
   if (body)
     for (const BodyContact& c : body->contact)
-      if (c.pn > 0 || c.gap < 0) overlap.push_back(-c.gap / grains.disc[c.grain].radius);
+      if (c.pn > 0 || c.gap < 0) overlap.push_back(std::max(-c.gap / grains.disc[c.grain].radius, 0.0));
   statistics.touching = static_cast<std::int64_t>(overlap.size());
   if (overlap.empty()) return statistics;
-  for (double& o : overlap) sum += o = std::max(o, 0.0);
+  for (const double o : overlap) sum += o;
   statistics.mean = sum / static_cast<double>(overlap.size());
   // The smallest overlap that 99.9 % do not exceed: the k-th largest.
   const auto k = static_cast<std::ptrdiff_t>(overlap.size() / 1000);
@@ -87,7 +102,7 @@ OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grai
   template ContactReport integrate(ContactSystem<Real>&, Grains&, const Box&, const ContactLaw&, RigidBody*,           \
                                    std::span<const double>, bool, ContactTotals&, const Team&, base::Profile&);             \
   template std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>&, const Grains&, const RigidBody*); \
-  template OverlapStatistics overlaps(const ContactSystem<Real>&, const Grains&, const RigidBody*);
+  template OverlapStatistics overlaps(const ContactSystem<Real>&, const Grains&, const RigidBody*, base::Crew*);
 SEAPILE_INSTANTIATE(float)
 SEAPILE_INSTANTIATE(double)
 #undef SEAPILE_INSTANTIATE

@@ -161,6 +161,7 @@ struct OverlapStatistics {
   double max = 0, p999 = 0, mean = 0;  ///< share of the smaller radius [-]
 };
 template <class Real>
-OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body);
+OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body,
+                           base::Crew* crew = nullptr);
 
 }  // namespace seapile::grains

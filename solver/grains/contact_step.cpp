@@ -11,8 +11,8 @@ double largest(ContactSystem<Real>& system, base::Crew* crew, auto&& value) {
   system.scratch.assign(system.regions.tiles(), 0);
   for_tiles(system.regions, crew, [&](std::int32_t tile) {
     double most = 0;
-    for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i)
-      most = std::max(most, value(i));
+    const std::int32_t last = system.regions.first_grain(tile + 1);
+    for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i) most = std::max(most, value(i));
     system.scratch[tile] = most;
   });
   double most = 0;
@@ -78,7 +78,8 @@ bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, Rig
 template <class Real>
 void move_places(ContactSystem<Real>& system, Grains& grains, std::int32_t tile, double h) {
   double longest = 0;
-  for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i) {
+  const std::int32_t last = system.regions.first_grain(tile + 1);
+  for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i) {
     const Motion<Real>& now = system.motion(i);
     const double dx = static_cast<double>(system.drift(i).dx) + h * static_cast<double>(now.vx);
     const double dy = static_cast<double>(system.drift(i).dy) + h * static_cast<double>(now.vy);

@@ -69,9 +69,11 @@ template <class Real>
 std::int64_t touching_in(const ContactBlocks<Real>& blocks, std::int32_t region) {
   std::int64_t touching = 0;
   const BlockRange range = blocks_of(blocks, region);
-  for (std::int32_t b = range.first; b < range.last; ++b)
-    if (blocks.active[b])
-      for (int lane = 0; lane < kLanes; ++lane) touching += blocks.block[b].pn[lane] > 0;
+  for (std::int32_t b = range.first; b < range.last; ++b) {
+    int in_block = 0;
+    for (int lane = 0; lane < kLanes; ++lane) in_block += blocks.block[b].pn[lane] > 0 ? 1 : 0;
+    touching += blocks.active[b] ? in_block : 0;
+  }
   return touching;
 }
 

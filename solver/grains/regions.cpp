@@ -29,10 +29,6 @@ std::int32_t Regions::add(std::int32_t first_tile, std::int32_t last_tile) {
   return count() - 1;
 }
 
-std::int32_t Regions::first_grain(std::int32_t tile) const {
-  return static_cast<std::int32_t>(std::min<std::int64_t>(std::int64_t{tile} * tile_grains_, grains_));
-}
-
 std::int32_t Regions::first_inside(std::int32_t region) const { return of_tile_[region_[region].first_tile]; }
 
 std::int32_t Regions::holding(std::int32_t a, std::int32_t b) const {

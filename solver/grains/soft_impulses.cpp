@@ -29,7 +29,8 @@ Softness<Real> narrow(const Softness<double>& s) {
 template <class Real>
 double last_lift(const ContactSystem<Real>& system, const Grains& grains, std::int32_t tile, double fall) {
   double lift = 0;
-  for (std::int32_t i = system.regions.first_grain(tile); i < system.regions.first_grain(tile + 1); ++i)
+  const std::int32_t last = system.regions.first_grain(tile + 1);
+  for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i)
     lift += grains.mass[i] * (static_cast<double>(system.motion(i).vy - system.before[i].vy) + fall);
   return lift;
 }

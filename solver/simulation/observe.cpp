@@ -93,7 +93,7 @@ Record take_record(Simulation& sim) {
 
   std::visit(
       [&](const auto& system) {
-        const grains::OverlapStatistics o = overlaps(system, sim.grains, body_of(sim));
+        const grains::OverlapStatistics o = overlaps(system, sim.grains, body_of(sim), sim.team.crew.get());
         r.overlap_max = o.max;
         r.overlap_p999 = o.p999;
         r.overlap_mean = o.mean;
