@@ -310,6 +310,13 @@ std::vector<TouchingContact> touching_contacts(const AllPairs& system, const Gra
   return system.touching;
 }
 
+Energy energy(const AllPairs& system, const Grains& grains, double gravity, double base, base::Crew*) {
+  Energy sum;
+  for (std::size_t i = 0; i < grains.count(); ++i)
+    sum = sum + energy_of(system.body[i], grains.mass[i], grains.disc[i].y - base, gravity);
+  return sum;
+}
+
 OverlapStatistics overlaps(const AllPairs& system, const Grains&, const RigidBody*, base::Crew*) { return system.overlap; }
 
 }  // namespace seapile::grains

@@ -42,6 +42,7 @@ ContactReport integrate(AllPairs& system, Grains& grains, const Box& box, const 
                         base::Profile& profile);
 
 std::vector<TouchingContact> touching_contacts(const AllPairs& system, const Grains& grains, const RigidBody* body);
+Energy energy(const AllPairs& system, const Grains& grains, double gravity, double base, base::Crew* crew = nullptr);
 OverlapStatistics overlaps(const AllPairs& system, const Grains& grains, const RigidBody* body, base::Crew* crew = nullptr);
 
 }  // namespace seapile::grains

@@ -216,6 +216,7 @@ class Lister {
 template <class Real>
 void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& system) {
   ContactBlocks<Real>& blocks = system.blocks;
+  std::fill_n(blocks.block.begin() + group.first_block, group.blocks, ContactBlock<Real>{});
   std::vector<std::array<std::int32_t, 2>> next(group.members.size());  // lane at which the next contact goes
   std::int32_t block = group.first_block, filler = group.first_filler;
   for (std::size_t k = 0; k < group.members.size(); ++k) {
@@ -304,7 +305,7 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
     filler += 2 * group.empty_lanes;
   }
   blocks.region_colour.push_back(colour);
-  blocks.block.assign(block, {});
+  blocks.block.resize(block);  // each region's thread clears its own
   blocks.colour.assign(colour, {});
   blocks.wake.assign(block, 0);
   blocks.bodies = filler;

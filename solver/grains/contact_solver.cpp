@@ -49,60 +49,96 @@ std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>& system
   return touching;
 }
 
+namespace {
+
+/// Overlaps of a region's touching contacts, as shares of the smaller radius.
+struct RegionOverlaps {
+  std::int64_t touching = 0, between_grains = 0;
+  double sum = 0;
+  std::vector<double> largest;  ///< as many as may be among the largest thousandth of all, in no order
+};
+
+template <class Real>
+RegionOverlaps overlaps_of(const ContactBlocks<Real>& blocks, const Grains& grains, std::int32_t region, std::size_t keep) {
+  RegionOverlaps found;
+  const BlockRange range = blocks_of(blocks, region);
+  found.largest.reserve(static_cast<std::size_t>(range.last - range.first) * kLanes);
+  for (std::int32_t b = range.first; b < range.last; ++b) {
+    if (!blocks.active[b]) continue;
+    const ContactBlock<Real>& block = blocks.block[b];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double gap = static_cast<double>(block.gap[lane]);
+      if (!(block.pn[lane] > 0) && !(gap < 0)) continue;
+      const double ri = grains.disc[body_at(block.i[lane])].radius, rj = grains.disc[body_at(block.j[lane])].radius;
+      found.between_grains += rj > 0;
+      found.largest.push_back(std::max(-gap / (rj > 0 ? std::min(ri, rj) : ri), 0.0));
+      found.sum += found.largest.back();
+    }
+  }
+  found.touching = static_cast<std::int64_t>(found.largest.size());
+  if (found.largest.size() > keep) {
+    std::nth_element(found.largest.begin(), found.largest.begin() + static_cast<std::ptrdiff_t>(keep), found.largest.end(),
+                     std::greater<>());
+    found.largest.resize(keep);
+  }
+  return found;
+}
+
+}  // namespace
+
 template <class Real>
 OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body, base::Crew* crew) {
-  OverlapStatistics statistics;
   const ContactBlocks<Real>& blocks = system.blocks;
-  const std::size_t regions = blocks.region_colour.empty() ? 0 : system.regions.count();
-  std::vector<std::vector<double>> of_region(regions);
-  std::vector<std::int64_t> between_grains(regions);
-  const auto collect = [&](std::int32_t region) {
-    const BlockRange range = blocks_of(blocks, region);
-    of_region[region].reserve(static_cast<std::size_t>(range.last - range.first) * kLanes);
-    for (std::int32_t b = range.first; b < range.last; ++b) {
-      if (!blocks.active[b]) continue;
-      const ContactBlock<Real>& block = blocks.block[b];
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const double gap = static_cast<double>(block.gap[lane]);
-        if (!(block.pn[lane] > 0) && !(gap < 0)) continue;
-        const double ri = grains.disc[body_at(block.i[lane])].radius, rj = grains.disc[body_at(block.j[lane])].radius;
-        between_grains[region] += rj > 0;
-        of_region[region].push_back(std::max(-gap / (rj > 0 ? std::min(ri, rj) : ri), 0.0));
-      }
-    }
-  };
-  if (regions > 0) for_regions(system.regions, crew, collect);
-
-  std::vector<double> overlap;
-  double sum = 0;
-  overlap.reserve(blocks.block.size() * kLanes);
-  for (std::size_t region = 0; region < regions; ++region) {
-    overlap.insert(overlap.end(), of_region[region].begin(), of_region[region].end());
-    statistics.between_grains += between_grains[region];
-  }
-  if (body)
+  const std::size_t at_most = blocks.block.size() * kLanes + (body ? body->contact.size() : 0), keep = at_most / 1000 + 1;
+  std::vector<RegionOverlaps> parts(blocks.region_colour.empty() ? 0 : system.regions.count());
+  if (!parts.empty())
+    for_regions(system.regions, crew, [&](std::int32_t r) { parts[r] = overlaps_of(blocks, grains, r, keep); });
+  if (body) {
+    RegionOverlaps& of_body = parts.emplace_back();
     for (const BodyContact& c : body->contact)
-      if (c.pn > 0 || c.gap < 0) overlap.push_back(std::max(-c.gap / grains.disc[c.grain].radius, 0.0));
-  statistics.touching = static_cast<std::int64_t>(overlap.size());
-  if (overlap.empty()) return statistics;
-  for (const double o : overlap) sum += o;
-  statistics.mean = sum / static_cast<double>(overlap.size());
+      if (c.pn > 0 || c.gap < 0) of_body.largest.push_back(std::max(-c.gap / grains.disc[c.grain].radius, 0.0));
+    for (const double o : of_body.largest) of_body.sum += o;
+    of_body.touching = static_cast<std::int64_t>(of_body.largest.size());
+  }
+
+  OverlapStatistics statistics;
+  double sum = 0;
+  std::vector<double> largest;
+  for (const RegionOverlaps& part : parts) {
+    statistics.touching += part.touching;
+    statistics.between_grains += part.between_grains;
+    sum += part.sum;
+    largest.insert(largest.end(), part.largest.begin(), part.largest.end());
+  }
+  if (statistics.touching == 0) return statistics;
+  statistics.mean = sum / static_cast<double>(statistics.touching);
   // The smallest overlap that 99.9 % do not exceed: the k-th largest.
-  const auto k = static_cast<std::ptrdiff_t>(overlap.size() / 1000);
-  // Seldom more than a hundredth lies above four times the mean, and the k largest among it.
-  auto last = std::partition(overlap.begin(), overlap.end(), [&](double o) { return o > 4 * statistics.mean; });
-  if (last - overlap.begin() <= k) last = overlap.end();
-  std::nth_element(overlap.begin(), overlap.begin() + k, last, std::greater<>());
-  statistics.p999 = overlap[k];
-  statistics.max = *std::max_element(overlap.begin(), overlap.begin() + k + 1);
+  const auto k = static_cast<std::ptrdiff_t>(statistics.touching / 1000);
+  std::nth_element(largest.begin(), largest.begin() + k, largest.end(), std::greater<>());
+  statistics.p999 = largest[k];
+  statistics.max = *std::max_element(largest.begin(), largest.begin() + k + 1);
   return statistics;
+}
+
+template <class Real>
+Energy energy(const ContactSystem<Real>& system, const Grains& grains, double gravity, double base, base::Crew* crew) {
+  std::vector<Energy> parts(system.regions.tiles());
+  for_tiles(system.regions, crew, [&](std::int32_t tile) {
+    const std::int32_t last = system.regions.first_grain(tile + 1);
+    for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i)
+      parts[tile] = parts[tile] + energy_of(system.motion(i), grains.mass[i], grains.disc[i].y - base, gravity);
+  });
+  Energy sum;
+  for (const Energy& part : parts) sum = sum + part;
+  return sum;
 }
 
 #define SEAPILE_INSTANTIATE(Real)                                                                                     \
   template ContactReport integrate(ContactSystem<Real>&, Grains&, const Box&, const ContactLaw&, RigidBody*,           \
                                    std::span<const double>, bool, ContactTotals&, const Team&, base::Profile&);             \
   template std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>&, const Grains&, const RigidBody*); \
-  template OverlapStatistics overlaps(const ContactSystem<Real>&, const Grains&, const RigidBody*, base::Crew*);
+  template OverlapStatistics overlaps(const ContactSystem<Real>&, const Grains&, const RigidBody*, base::Crew*);         \
+  template Energy energy(const ContactSystem<Real>&, const Grains&, double, double, base::Crew*);
 SEAPILE_INSTANTIATE(float)
 SEAPILE_INSTANTIATE(double)
 #undef SEAPILE_INSTANTIATE

@@ -164,4 +164,20 @@ template <class Real>
 OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body,
                            base::Crew* crew = nullptr);
 
+/// Of all grains; spins included.
+struct Energy {
+  double kinetic = 0, potential = 0;  ///< [J/m]
+  friend Energy operator+(Energy a, Energy b) { return {a.kinetic + b.kinetic, a.potential + b.potential}; }
+};
+/// m (v^2 + u^2 / 2) / 2, because I omega^2 / 2 = m u^2 / 4, and m g y.
+template <class Real>
+Energy energy_of(const Motion<Real>& motion, double mass, double height, double gravity) {
+  const double vx = static_cast<double>(motion.vx), vy = static_cast<double>(motion.vy), u = static_cast<double>(motion.u);
+  return {0.5 * mass * (vx * vx + vy * vy + 0.5 * u * u), mass * gravity * height};
+}
+/// `base`: the height from which the potential energy counts [m].
+template <class Real>
+Energy energy(const ContactSystem<Real>& system, const Grains& grains, double gravity, double base,
+              base::Crew* crew = nullptr);
+
 }  // namespace seapile::grains

@@ -98,12 +98,9 @@ Record take_record(Simulation& sim) {
         r.overlap_p999 = o.p999;
         r.overlap_mean = o.mean;
         r.contacts = static_cast<double>(o.touching);
-        for (std::size_t i = 0; i < sim.grains.count(); ++i) {
-          const auto& m = system.motion(static_cast<std::int32_t>(i));
-          const double vx = static_cast<double>(m.vx), vy = static_cast<double>(m.vy), u = static_cast<double>(m.u);
-          r.kinetic_energy += 0.5 * sim.grains.mass[i] * (vx * vx + vy * vy + 0.5 * u * u);
-          r.potential_energy += sim.grains.mass[i] * sim.law.gravity * (sim.grains.disc[i].y - sim.box.base);
-        }
+        const grains::Energy e = energy(system, sim.grains, sim.law.gravity, sim.box.base, sim.team.crew.get());
+        r.kinetic_energy = e.kinetic;
+        r.potential_energy = e.potential;
       },
       sim.contacts);
   r.residual = g.steps > 0 ? std::sqrt(g.residual / static_cast<double>(g.steps)) : 0;

@@ -51,7 +51,7 @@ std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpe
 
 }  // namespace
 
-std::vector<NumericsVersion> numerics_versions() { return {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 1}}; }
+std::vector<NumericsVersion> numerics_versions() { return {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}}; }
 
 std::vector<Part> parts(const scene::SceneSpec& scene) {
   const std::string dry = "the scene is dry: \"fluid\" is null";
