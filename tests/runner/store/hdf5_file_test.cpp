@@ -1,8 +1,11 @@
 #include "runner/store/hdf5_file.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "runner/store/durable.h"
 #include "runner/store/run_folder.h"
@@ -172,6 +175,43 @@ TEST(Hdf5Reader, NoticesValuesThatAreNotThoseWritten) {
     EXPECT_EQ(error.kind, StoreError::Kind::damaged);
   }
   reader.close();
+}
+
+TEST(Hdf5Reader, RefusesAFileWithAPieceThatReadsAsZeros) {
+  // More names in a group than its header holds; what the library has not set in its memory is no zero.
+  constexpr std::size_t kPiece = 64;
+  const Scratch scratch;
+  const std::filesystem::path file = scratch.path() / "file.h5";
+  FileWriter writer(file, Storage::plain);
+  for (int i = 0; i < 20; ++i) {
+    writer.dataset("/group/name_" + std::to_string(i), {2, 0}, std::vector<double>{0.5 + i, 1});
+  }
+  writer.close();
+  const std::string whole = read_text(file);
+  const auto all_values = [&] {
+    FileReader reader(file);
+    std::vector<double> all;
+    for (const std::string& name : reader.datasets("/")) all.push_back(reader.read<double>(name).at(0));
+    reader.close();
+    return all;
+  };
+  const std::vector<double> right = all_values();
+  ASSERT_EQ(right.size(), 20U);
+  ::mallopt(M_PERTURB, 0xA5);
+  std::size_t refused = 0;
+  for (std::size_t at = 0; at < whole.size(); at += kPiece) {
+    std::string damaged = whole;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(at), std::min(kPiece, whole.size() - at), '\0');
+    std::ofstream(file, std::ios::binary) << damaged;
+    try {
+      EXPECT_EQ(all_values(), right) << "zeros from byte " << at;
+    } catch (const StoreError& error) {
+      EXPECT_EQ(error.kind, StoreError::Kind::damaged);
+      ++refused;
+    }
+  }
+  ::mallopt(M_PERTURB, 0);
+  EXPECT_GT(refused, 20U);
 }
 
 TEST(Hdf5HandleDeathTest, LeftOpenWithoutAnErrorEndsTheProgram) {
