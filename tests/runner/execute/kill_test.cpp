@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -75,13 +77,26 @@ std::vector<fs::path> manifests(const Workplace& place) {
   return found;
 }
 
-/// Waits until a file of that name is somewhere below the results.
-bool appears(const Workplace& place, const std::string& name) {
+/// Size and time of every file below the results.
+auto files(const Workplace& place) {
+  std::map<fs::path, std::pair<std::uintmax_t, fs::file_time_type>> found;
+  std::error_code changing;
+  for (fs::recursive_directory_iterator entry(place.results(), changing), end; entry != end && !changing;
+       entry.increment(changing)) {
+    std::error_code gone;
+    if (entry->is_regular_file(gone)) found[entry->path()] = {entry->file_size(gone), entry->last_write_time(gone)};
+  }
+  return found;
+}
+
+/// Waits until so many files of that name are somewhere below the results.
+bool appears(const Workplace& place, const std::string& name, int count = 1) {
   for (int i = 0; i < 60'000; ++i) {
+    int found = 0;
     std::error_code changing;
     for (fs::recursive_directory_iterator entry(place.results(), changing), end; entry != end && !changing;
          entry.increment(changing)) {
-      if (entry->path().filename() == name) return true;
+      if (entry->path().filename() == name && ++found == count) return true;
     }
     std::this_thread::sleep_for(1ms);
   }
@@ -223,6 +238,24 @@ TEST_F(KillTest, AKilledRunnerLeavesNoWorkerAndTheSameCommandFinishes) {
   EXPECT_GE(killed, kills) << "too few runners were met";
 }
 
+// A worker that goes on ends soon, at the first message that nobody reads: only what it writes until then tells.
+TEST_F(KillTest, AWorkerWritesNothingOnceItsRunnerIsDead) {
+  for (int i = 0; i < 5; ++i) {
+    const Workplace place;
+    place.write("small.json", small_study("small"));
+    const pid_t runner = place.start(kCommand);
+    ASSERT_TRUE(appears(place, "a.h5"));
+    ::kill(runner, SIGKILL);
+    ASSERT_EQ(wait_for(runner), -SIGKILL);
+    const auto at_death = files(place);
+    EXPECT_TRUE(deserted(place));
+    std::vector<std::pair<fs::path, std::pair<std::uintmax_t, fs::file_time_type>>> changed;
+    std::ranges::set_symmetric_difference(at_death, files(place), std::back_inserter(changed));
+    // The system call that the worker was in may end: a rename takes a name from one file and gives it to another.
+    EXPECT_LE(changed.size(), 3U) << "a worker went on without its runner";
+  }
+}
+
 TEST_F(KillTest, AStoppedStudyIsContinuedFromItsCheckpoints) {
   for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 75)}) {
     const Workplace place;
@@ -245,13 +278,37 @@ TEST_F(KillTest, AStoppedStudyIsContinuedFromItsCheckpoints) {
   }
 }
 
+TEST_F(KillTest, AStopSealsACheckpointWhereNoneWasDue) {
+  std::vector<std::string> command = kCommand;
+  command[2] = "3600";
+  const Workplace place;
+  place.write("small.json", small_study("small"));
+  const pid_t runner = place.start(command);
+  ASSERT_TRUE(appears(place, "log.txt", 2));  // The bed, which has no checkpoint, is done; a drive is at work.
+  ::kill(runner, SIGTERM);
+  EXPECT_EQ(wait_for(runner), 75) << content(place.folder() / "error");
+  EXPECT_TRUE(appears(place, "a.h5"));
+  EXPECT_EQ(place.run(kCommand).exit_code, 0);
+  expect_finished_like_undisturbed(place);
+}
+
 TEST_F(KillTest, ASecondInterruptDoesNotWait) {
   const Workplace place;
   place.write("small.json", small_study("small"));
   const pid_t runner = place.start(kCommand);
   ASSERT_TRUE(appears(place, "a.h5"));
+  // Workers that never come to their next checkpoint.
+  for (const pid_t worker : workers_of(place, runner)) ::kill(worker, SIGSTOP);
   ::kill(runner, SIGINT);
+  ASSERT_TRUE(says(place, "seal a checkpoint"));
   ::kill(runner, SIGINT);
+  bool alone = false;
+  for (int i = 0; i < 1000 && !alone; ++i) {
+    std::this_thread::sleep_for(10ms);
+    alone = workers_of(place, runner).empty();
+  }
+  EXPECT_TRUE(alone) << "the second interrupt killed no worker";
+  for (const pid_t worker : workers_of(place, runner)) ::kill(worker, SIGCONT);
   EXPECT_EQ(wait_for(runner), 130);
   EXPECT_TRUE(deserted(place));
   expect_only_whole_runs(place);
