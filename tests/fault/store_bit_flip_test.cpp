@@ -103,6 +103,12 @@ Path write_diverged(const Path& root) {
   return folder;
 }
 
+/// Sidecars are ParaView's, and what a diverged run keeps is there for whoever looks into it.
+bool is_never_read(const Path& file) {
+  const std::string folder = file.parent_path().filename();
+  return file.extension() == ".xdmf" || folder == "segment" || folder == "checkpoint";
+}
+
 bool verify_sees(const Path& run) {
   try {
     return !verify(run).empty();
@@ -126,7 +132,7 @@ TEST(BitFlip, IsNeverReadAsAResult) {
   Flips flips({written.drive, written.bed, diverged});
   std::size_t verified = 0, refused = 0, harmless = 0;
   for (std::size_t i = 0; i < kFlips; ++i) {
-    flips.make(i);
+    const Path file = flips.make(i);
     SCOPED_TRACE(flips.place());
     const bool found = verify_sees(written.drive) || verify_sees(written.bed) || verify_sees(diverged);
     EXPECT_TRUE(found) << "verify() sees nothing";
@@ -134,7 +140,8 @@ TEST(BitFlip, IsNeverReadAsAResult) {
     try {
       const bool right = all_right();
       EXPECT_TRUE(right) << "silently wrong";
-      harmless += right ? 1 : 0;  // In a file that no reader of ours opens: a sidecar, or what a diverged run keeps.
+      EXPECT_TRUE(is_never_read(file)) << "the library has opened a damaged file";
+      harmless += right ? 1 : 0;
     } catch (const StoreError&) {
       ++refused;
     }

@@ -165,9 +165,9 @@ PLAIN_CALL(fsync, (int descriptor), (descriptor), concerns(descriptor, path, siz
 PLAIN_CALL(fdatasync, (int descriptor), (descriptor), concerns(descriptor, path, sizeof path), 0, NOTHING,
            unsynced_after_sync(path, result))
 PLAIN_CALL(ftruncate, (int descriptor, off_t size), (descriptor, size), concerns(descriptor, path, sizeof path), 1,
-           unsynced_before_change(path), NOTHING)
+           unsynced_before_truncation(path, size), NOTHING)
 PLAIN_CALL(ftruncate64, (int descriptor, off64_t size), (descriptor, size), concerns(descriptor, path, sizeof path), 1,
-           unsynced_before_change(path), NOTHING)
+           unsynced_before_truncation(path, size), NOTHING)
 PLAIN_CALL(rename, (const char* from, const char* to), (from, to), is_below_root(from), 1, unsynced_before_rename(to),
            unsynced_after_rename(from, to, result))
 

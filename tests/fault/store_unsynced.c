@@ -87,6 +87,13 @@ void unsynced_before_change(const char* path) {
   files[file_count++] = (struct file){strdup(path), before, 0};
 }
 
+void unsynced_before_truncation(const char* path, long long size) {
+  unsynced_before_change(path);
+  for (int i = 0; i < file_count; ++i) {
+    if (size == 0 && strcmp(files[i].path, path) == 0) files[i].lost = 0;
+  }
+}
+
 void unsynced_after_sync(const char* path, int result) {
   for (int i = 0; i < file_count; ++i) {
     if (strcmp(files[i].path, path) != 0) continue;

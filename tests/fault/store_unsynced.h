@@ -2,13 +2,15 @@
 // library.
 //
 // The worst is taken: nothing is kept that no sync asked for, and what a failed sync covered is lost for good, whatever
-// later ones say. A removal counts as durable at once, and so does the bare name of a new file.
+// later ones say, unless the file is emptied and written anew. A removal counts as durable at once, and so does the
+// bare name of a new file.
 #pragma once
 
 /// Where copies are kept: this name and a number behind it.
 void unsynced_keep_beside(const char* prefix);
 
-void unsynced_before_change(const char* file);  ///< a write or a truncation
+void unsynced_before_change(const char* file);
+void unsynced_before_truncation(const char* file, long long size);
 void unsynced_after_sync(const char* path, int result);
 void unsynced_before_rename(const char* to);
 void unsynced_after_rename(const char* from, const char* to, int result);
