@@ -181,7 +181,7 @@ std::vector<BandPoint> band_of_packings(const CurveGroup& group, double level) {
   return band;
 }
 
-std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
+std::string gnuplot_script(const Figure& figure) {
   const bool with_faint = figure.groups.size() <= kMostFaint;
   double deepest = 0, lowest = 0, highest = 0;
   for (const CurveGroup& group : figure.groups) {
@@ -195,9 +195,8 @@ std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
   }
   std::string script = fmt::format(
       "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n"
-      "set output {}\n",
-      kWidth, kHeight, quoted(svg.string()));
+      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n",
+      kWidth, kHeight);
   script += frame_of(figure, deepest, lowest < -0.02 * highest);
 
   // Bands and faint lines first, so that no strong line lies under one of them.
@@ -240,11 +239,9 @@ std::string gnuplot_script(const Figure& figure, const fs::path& svg) {
                           kBandAlpha, quoted(band_title(figure)));
   }
   // The last curve is never seen; it saves the list above from a special last line.
-  return script + blocks + "plot \\\n" + bands + faint + strong + "  NaN axes x2y1 notitle\nset output\n";
+  return script + blocks + "plot \\\n" + bands + faint + strong + "  NaN axes x2y1 notitle\n";
 }
 
-void draw(const Figure& figure, const fs::path& svg) {
-  draw_with_gnuplot([&](const std::string& name) { return gnuplot_script(figure, name); }, svg);
-}
+void draw(const Figure& figure, const fs::path& svg) { draw_with_gnuplot(gnuplot_script(figure), svg); }
 
 }  // namespace seapile::present

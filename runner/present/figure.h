@@ -47,8 +47,8 @@ struct BandPoint {
 /// Mean of the packings' bin means with its interval, over the bins that all of them have.
 std::vector<BandPoint> band_of_packings(const CurveGroup& group, double level = kLevel);
 
-/// Input for gnuplot that draws the figure into `svg`.
-std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg);
+/// Input for gnuplot that draws the figure to standard output.
+std::string gnuplot_script(const Figure& figure);
 
 /// Draws the figure with gnuplot; the file appears when it is complete. Throws store::StoreError.
 void draw(const Figure& figure, const std::filesystem::path& svg);

@@ -1,7 +1,7 @@
 #include "runner/present/gnuplot.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <boost/process/args.hpp>
@@ -10,8 +10,8 @@
 #include <boost/process/io.hpp>
 #include <boost/process/pipe.hpp>
 #include <boost/process/search_path.hpp>
-#include <boost/process/start_dir.hpp>
-#include <fstream>
+#include <cerrno>
+#include <cstdio>
 #include <string_view>
 #include <system_error>
 
@@ -44,6 +44,30 @@ std::string finished(std::string svg) {
   }
   return svg;
 }
+
+/// A file without a name: whoever dies while it is drawn on leaves nothing behind.
+class Sheet {
+ public:
+  Sheet() : file_(::fdopen(::memfd_create("picture", MFD_CLOEXEC), "r+")) {
+    if (file_ == nullptr) throw std::system_error(errno, std::generic_category(), "memory for the picture");
+  }
+  Sheet(const Sheet&) = delete;
+  Sheet& operator=(const Sheet&) = delete;
+  ~Sheet() { std::fclose(file_); }
+
+  std::FILE* file() const { return file_; }
+
+  std::string text() const {
+    std::string all;
+    std::rewind(file_);
+    char piece[1 << 14];
+    for (std::size_t got; (got = std::fread(piece, 1, sizeof piece, file_)) > 0;) all.append(piece, got);
+    return all;
+  }
+
+ private:
+  std::FILE* file_;
+};
 
 }  // namespace
 
@@ -93,43 +117,38 @@ Style style_of(std::size_t group) {
   return {kColours[group % kColourCount], kDashes[std::min(group / kColourCount, std::size(kDashes) - 1)]};
 }
 
-void draw_with_gnuplot(const std::function<std::string(const std::string&)>& script, const fs::path& svg) {
+void draw_with_gnuplot(const std::string& script, const fs::path& svg) {
   namespace bp = boost::process;
   const auto fail = [&](const std::string& why) {
     throw store::StoreError(store::StoreError::Kind::io, fmt::format("{} was not drawn: {}", svg.string(), why));
   };
   const auto gnuplot = bp::search_path("gnuplot");
   if (gnuplot.empty()) fail("gnuplot is not installed");
-
-  // gnuplot gets a plain name in the picture's own folder, whatever that folder is called.
   std::error_code error;
   fs::create_directories(svg.parent_path(), error);
-  // Else gnuplot would start, and write, in the folder of its caller.
-  if (error || !fs::is_directory(svg.parent_path())) fail(error ? error.message() : "its folder is none");
-  const std::string temporary = fmt::format(".figure-{}.tmp", ::getpid());
-  const fs::path written = svg.parent_path() / temporary;
-  std::string complaint;
+  if (error) fail(error.message());
+
+  std::string picture, complaint;
   int code = 0;
   try {
+    const Sheet sheet;
     bp::opstream input;
     bp::ipstream output;
-    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::start_dir = svg.parent_path().string(),
-                    bp::std_in<input, bp::std_out> bp::null, bp::std_err > output);
-    input << script(temporary) << std::flush;
+    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::std_in<input, bp::std_out> sheet.file(),
+                    bp::std_err > output);
+    input << script << std::flush;
     input.pipe().close();
     for (std::string line; std::getline(output, line);) {
       if (complaint.empty() && line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
     }
     child.wait();
     code = child.exit_code();
+    picture = sheet.text();
   } catch (const std::system_error& failure) {
     complaint = failure.what();
     code = -1;
   }
-  std::ifstream in(written);
-  std::string picture{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   const bool whole = picture.find("</svg>") != std::string::npos;
-  fs::remove(written, error);
   if (code != 0 || !whole) fail(complaint.empty() ? fmt::format("gnuplot ended with code {}", code) : complaint);
   store::write_text(svg, finished(std::move(picture)));
 }

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +22,8 @@ struct Style {
 };
 Style style_of(std::size_t group);
 
-/// Runs what `script` gives for the name of a file in the picture's folder; the picture appears when it is complete.
-/// Throws store::StoreError.
-void draw_with_gnuplot(const std::function<std::string(const std::string&)>& script, const std::filesystem::path& svg);
+/// Runs a script that draws one picture to standard output; the file appears when it is complete. Throws
+/// store::StoreError.
+void draw_with_gnuplot(const std::string& script, const std::filesystem::path& svg);
 
 }  // namespace seapile::present

@@ -81,7 +81,7 @@ double largest(const Trend& trend, bool abscissa) {
 
 }  // namespace
 
-std::string gnuplot_script(const std::string& title, const Trend& trend, const fs::path& svg) {
+std::string gnuplot_script(const std::string& title, const Trend& trend) {
   const bool has_effect = !trend.reference.empty();
   const int width = (has_effect ? 2 : 1) * kPanel;
   std::string x_unit = trend.against_unit, y_unit = trend.of_unit;
@@ -104,9 +104,8 @@ std::string gnuplot_script(const std::string& title, const Trend& trend, const f
 
   std::string script = fmt::format(
       "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n"
-      "set output {}\n",
-      width, kHeight, quoted(svg.string()));
+      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n",
+      width, kHeight);
   int top = kSide, label = 1;
   const auto put = [&](const std::string& line, int height, const char* font, const char* colour) {
     script += fmt::format("set label {} {} at screen {:.4f},{:.4f} left noenhanced font '{}' tc rgb '#{}'\n", label++,
@@ -149,11 +148,11 @@ std::string gnuplot_script(const std::string& title, const Trend& trend, const f
     draw_panel(1, quoted("ratio to " + trend.reference + ", on the same bed"),
                "  1 with lines lw 1 dt (6,4) lc rgb '#8c8c8c' notitle, \\\n" + right.plot);
   }
-  return script + "unset multiplot\nset output\n";
+  return script + "unset multiplot\n";
 }
 
 void draw(const std::string& title, const Trend& trend, const fs::path& svg) {
-  draw_with_gnuplot([&](const std::string& name) { return gnuplot_script(title, trend, name); }, fs::absolute(svg));
+  draw_with_gnuplot(gnuplot_script(title, trend), fs::absolute(svg));
 }
 
 }  // namespace seapile::present

@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <functional>
 
 #include "tests/fault/store_child.h"
@@ -28,7 +29,14 @@ enum Verdict { got_through, reported, not_possible, broken };
 
 Verdict in_child(const std::function<Verdict()>& work) {
   const pid_t child = ::fork();
-  if (child == 0) ::_exit(work());
+  if (child == 0) {
+    try {
+      ::_exit(work());
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    ::_exit(broken);
+  }
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) ? static_cast<Verdict>(WEXITSTATUS(status)) : broken;

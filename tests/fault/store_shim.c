@@ -6,9 +6,10 @@
 //                torn     half of what is to be written is written, then the process dies
 //                enospc   the call fails, no space left, once
 //                full     the same, and from there on every call that needs space
-//                eio      the call fails, input/output error, once
+//                eio      the call fails, input/output error, once; when the process has ended, the machine dies
 //                short    half is written, and that is said: no error, and to be gone on with
 //                silent   zeros are written in the place of the data, and success is reported
+//                power    the machine dies before the call: what is not synced is lost (store_unsynced.h)
 //   FAULT_MARK   a file that is created when the call has been reached
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -23,9 +24,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum mode { mode_none, mode_kill, mode_torn, mode_enospc, mode_full, mode_eio, mode_short, mode_silent };
+#include "tests/fault/store_unsynced.h"
 
-static const char* const kModes[] = {"", "kill", "torn", "enospc", "full", "eio", "short", "silent"};
+enum mode { mode_none, mode_kill, mode_torn, mode_enospc, mode_full, mode_eio, mode_short, mode_silent, mode_power };
+
+static const char* const kModes[] = {"", "kill", "torn", "enospc", "full", "eio", "short", "silent", "power"};
 
 static enum mode chosen = mode_none;
 static const char* root = "";
@@ -40,12 +43,30 @@ __attribute__((constructor)) static void read_environment(void) {
   root = getenv("FAULT_ROOT");
   mark = getenv("FAULT_MARK");
   fault_at = atol(at);
-  for (int i = 1; i <= mode_silent; ++i) {
+  for (int i = 1; i <= mode_power; ++i) {
     if (strcmp(mode, kModes[i]) == 0) chosen = (enum mode)i;
   }
+  unsynced_keep_beside(mark);
 }
 
-static int is_below_root(const char* path) { return strncmp(path, root, strlen(root)) == 0; }
+static int forgets(void) { return chosen == mode_power || chosen == mode_eio; }
+
+__attribute__((destructor)) static void lose_at_the_end(void) {
+  if (forgets()) unsynced_lose();
+}
+
+// A process that reports an error runs no destructors.
+void _exit(int code) {
+  lose_at_the_end();
+  syscall(SYS_exit_group, code);
+  __builtin_unreachable();
+}
+
+// The root ends in a slash; the folder itself counts too, since it is synced.
+static int is_below_root(const char* path) {
+  const size_t length = strlen(root);
+  return strncmp(path, root, length) == 0 || (strlen(path) + 1 == length && strncmp(path, root, length - 1) == 0);
+}
 
 static int concerns(int descriptor, char* path, size_t size) {
   char link[64];
@@ -69,7 +90,8 @@ static enum mode turn(void) {
   if (now == fault_at) {
     const int descriptor = (int)syscall(SYS_openat, AT_FDCWD, mark, O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor >= 0) syscall(SYS_close, descriptor);
-    if (chosen == mode_kill) die();
+    if (chosen == mode_power) unsynced_lose();
+    if (chosen == mode_kill || chosen == mode_power) die();
     return chosen;
   }
   return chosen == mode_full ? mode_full : mode_none;
@@ -97,7 +119,8 @@ static ssize_t put(int descriptor, const void* data, size_t size, off64_t at) {
   find(&real_write, "write");
   find(&real_pwrite, "pwrite64");
   char path[4096];
-  const enum mode mode = concerns(descriptor, path, sizeof path) ? turn() : mode_none;
+  const int counts = concerns(descriptor, path, sizeof path);
+  const enum mode mode = counts ? turn() : mode_none;
   size_t length = size;
   const void* source = data;
   char* zeros = NULL;
@@ -105,6 +128,7 @@ static ssize_t put(int descriptor, const void* data, size_t size, off64_t at) {
   if ((mode == mode_torn || mode == mode_short) && size > 1) length = size / 2;
   // What SQLite writes it cannot read back before it says so; that a disk lies there is not to be found out.
   if (mode == mode_silent && strstr(path, "catalogue.sqlite") == NULL) source = zeros = calloc(1, size);
+  if (counts && forgets()) unsynced_before_change(path);
   const ssize_t done = at < 0 ? real_write(descriptor, source, length) : real_pwrite(descriptor, source, length, at);
   free(zeros);
   if (mode == mode_torn) die();
@@ -116,25 +140,49 @@ ssize_t pwrite(int descriptor, const void* data, size_t size, off_t at) { return
 ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t at) { return put(descriptor, data, size, at); }
 
 // A call without data: fails, or is done. What needs no space goes on succeeding on a full disk.
-#define PLAIN_CALL(name, parameters, arguments, counts, needs_space)           \
-  int name parameters {                                                        \
-    static int(*real) parameters;                                              \
-    find(&real, #name);                                                        \
-    char path[4096];                                                           \
-    (void)path;                                                                \
-    const enum mode mode = (counts) ? turn() : mode_none;                      \
-    if (mode == mode_enospc || mode == mode_eio) return failed(mode);          \
-    if (mode == mode_full && (needs_space || is_first())) return failed(mode); \
-    const int result = real arguments;                                         \
-    if (mode == mode_torn) die();                                              \
-    return result;                                                             \
+#define PLAIN_CALL(name, parameters, arguments, counts, needs_space, before, after)                                  \
+  int name parameters {                                                                                              \
+    static int(*real) parameters;                                                                                    \
+    find(&real, #name);                                                                                              \
+    char path[4096];                                                                                                 \
+    (void)path;                                                                                                      \
+    const int is_ours = (counts);                                                                                    \
+    const enum mode mode = is_ours ? turn() : mode_none;                                                             \
+    const int fails = mode == mode_enospc || mode == mode_eio || (mode == mode_full && (needs_space || is_first())); \
+    if (is_ours && forgets() && !fails) before;                                                                      \
+    const int result = fails ? -1 : real arguments;                                                                  \
+    const int error = errno;                                                                                         \
+    if (is_ours && forgets()) after;                                                                                 \
+    if (mode == mode_torn) die();                                                                                    \
+    errno = error;                                                                                                   \
+    return fails ? failed(mode) : result;                                                                            \
   }
 
-PLAIN_CALL(fsync, (int descriptor), (descriptor), concerns(descriptor, path, sizeof path), 0)
-PLAIN_CALL(fdatasync, (int descriptor), (descriptor), concerns(descriptor, path, sizeof path), 0)
-PLAIN_CALL(ftruncate, (int descriptor, off_t size), (descriptor, size), concerns(descriptor, path, sizeof path), 1)
-PLAIN_CALL(ftruncate64, (int descriptor, off64_t size), (descriptor, size), concerns(descriptor, path, sizeof path), 1)
-PLAIN_CALL(rename, (const char* from, const char* to), (from, to), is_below_root(from), 1)
+#define NOTHING ((void)0)
+
+PLAIN_CALL(fsync, (int descriptor), (descriptor), concerns(descriptor, path, sizeof path), 0, NOTHING,
+           unsynced_after_sync(path, result))
+PLAIN_CALL(fdatasync, (int descriptor), (descriptor), concerns(descriptor, path, sizeof path), 0, NOTHING,
+           unsynced_after_sync(path, result))
+PLAIN_CALL(ftruncate, (int descriptor, off_t size), (descriptor, size), concerns(descriptor, path, sizeof path), 1,
+           unsynced_before_truncation(path, size), NOTHING)
+PLAIN_CALL(ftruncate64, (int descriptor, off64_t size), (descriptor, size), concerns(descriptor, path, sizeof path), 1,
+           unsynced_before_truncation(path, size), NOTHING)
+PLAIN_CALL(rename, (const char* from, const char* to), (from, to), is_below_root(from), 1, unsynced_before_rename(to),
+           unsynced_after_rename(from, to, result))
+
+// Watched, but not counted: they make no fault of their own.
+int mkdir(const char* folder, mode_t permissions) {
+  const int result = (int)syscall(SYS_mkdirat, AT_FDCWD, folder, permissions);
+  if (result == 0 && forgets() && is_below_root(folder)) unsynced_after_making(folder);
+  return result;
+}
+
+int unlink(const char* file) {
+  const int result = (int)syscall(SYS_unlinkat, AT_FDCWD, file, 0);
+  if (result == 0 && forgets() && is_below_root(file)) unsynced_after_removal(file);
+  return result;
+}
 
 int close(int descriptor) {
   static int (*real)(int);

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -97,11 +99,11 @@ TEST_F(FigureTest, SeveralPackingsHaveABandAndALegendThatSaysSo) {
   const std::string svg = content(folder / "a.svg");
   EXPECT_THAT(svg, HasSubstr("mean of 2 to 3 packings, 95 % band"));
   EXPECT_THAT(svg, HasSubstr("fill-opacity"));
-  EXPECT_THAT(gnuplot_script({"", {{"a", {ramp(0.2), ramp(0.2)}}}}, "a.svg"), HasSubstr("$band_0 "));
+  EXPECT_THAT(gnuplot_script({"", {{"a", {ramp(0.2), ramp(0.2)}}}}), HasSubstr("$band_0 "));
 }
 
 TEST_F(FigureTest, OnePackingHasNoBand) {
-  const std::string script = gnuplot_script({"", {{"tip flat", {ramp(1.2)}}}}, "a.svg");
+  const std::string script = gnuplot_script({"", {{"tip flat", {ramp(1.2)}}}});
   EXPECT_THAT(script, Not(HasSubstr("band")));
   EXPECT_THAT(script, HasSubstr("One packing"));
 }
@@ -115,6 +117,25 @@ TEST_F(FigureTest, IsACompletePictureWithItsTexts) {
   EXPECT_THAT(svg, HasSubstr("(kPa)"));
   EXPECT_THAT(svg, HasSubstr("</svg>"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "something was left beside the picture";
+}
+
+TEST_F(FigureTest, ADeathWhileDrawingLeavesNothing) {
+  // A gnuplot that kills whoever started it, once the picture is drawn.
+  const fs::path fake = folder / "bin" / "gnuplot", pictures = folder / "pictures";
+  fs::create_directories(fake.parent_path());
+  const std::string path = std::getenv("PATH");
+  std::ofstream(fake) << "#!/bin/sh\nPATH='" << path << "' gnuplot \"$@\"\nkill -9 $PPID\n";
+  fs::permissions(fake, fs::perms::owner_all);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setenv("PATH", (fake.parent_path().string() + ":" + path).c_str(), 1);
+    draw({"", {{"", {ramp(0.2)}}}}, pictures / "a.svg");
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_TRUE(fs::is_empty(pictures));
 }
 
 TEST_F(FigureTest, NoTextIsRunAsACommandOrBreaksThePicture) {
@@ -131,7 +152,7 @@ TEST_F(FigureTest, NoTextIsRunAsACommandOrBreaksThePicture) {
 TEST_F(FigureTest, ALongTitleIsBrokenAndCut) {
   std::string title;
   for (int i = 0; i < 200; ++i) title += "word ";
-  const std::string script = gnuplot_script({title, {{"", {ramp(0.2)}}}}, "a.svg");
+  const std::string script = gnuplot_script({title, {{"", {ramp(0.2)}}}});
   EXPECT_THAT(script, HasSubstr("set label 3 "));
   EXPECT_THAT(script, HasSubstr("…"));
   EXPECT_THAT(script, Not(HasSubstr("set label 5 ")));
@@ -143,7 +164,7 @@ TEST_F(FigureTest, ManyRecordsAreThinnedButThePeaksStay) {
     curve.depth.push_back(i * 1e-5);
     curve.resistance.push_back(i == 77777 ? 5e6 : 1000);
   }
-  const std::string script = gnuplot_script({"", {{"", {curve}}}}, "a.svg");
+  const std::string script = gnuplot_script({"", {{"", {curve}}}});
   EXPECT_LT(script.size(), 100'000u);
   EXPECT_THAT(script, HasSubstr("\n5000 0.77777\n"));
 }
@@ -151,7 +172,7 @@ TEST_F(FigureTest, ManyRecordsAreThinnedButThePeaksStay) {
 TEST_F(FigureTest, TwelveCasesHaveTwelveLooks) {
   Figure figure;
   for (int i = 0; i < 12; ++i) figure.groups.push_back({"case " + std::to_string(i), {ramp(0.2)}});
-  const std::string script = gnuplot_script(figure, "a.svg");
+  const std::string script = gnuplot_script(figure);
   std::set<std::string> looks;
   for (std::size_t at = 0; (at = script.find(" dt ", at)) != std::string::npos; ++at) {
     looks.insert(script.substr(at, script.find(" title", at) - at));

@@ -186,13 +186,13 @@ TEST_F(TrendFigure, WithoutAnEffectThereIsOnePanel) {
   each.columns.pop_back(), each.units.pop_back(), each.kinds.pop_back();
   for (auto& row : each.rows) row.pop_back();
   const Trend found = trend(each, {"q_c", "bed:solid_fraction", ""});
-  EXPECT_THAT(gnuplot_script("", found, "a.svg"), Not(HasSubstr("ratio")));
+  EXPECT_THAT(gnuplot_script("", found), Not(HasSubstr("ratio")));
   EXPECT_THAT(drawn("", found), HasSubstr("</svg>"));
 }
 
 TEST_F(TrendFigure, BarsReachFromEndToEnd) {
   const Trend found = trend(answer(), kQuestion);
-  const std::string script = gnuplot_script("", found, "a.svg");
+  const std::string script = gnuplot_script("", found);
   const Interval x = found.cases[0].x, y = found.cases[0].y;
   const auto shown = [](double value) {
     std::ostringstream out;
@@ -207,7 +207,7 @@ TEST_F(TrendFigure, BarsReachFromEndToEnd) {
 TEST_F(TrendFigure, ALineGoesThroughItsCasesByRisingAbscissa) {
   Table each = answer();
   std::ranges::reverse(each.rows);  // the denser bed first
-  const std::string script = gnuplot_script("", trend(each, kQuestion), "a.svg");
+  const std::string script = gnuplot_script("", trend(each, kQuestion));
   for (const std::string block : {"$mean_left_0 << END\n", "$mean_left_1 << END\n", "$mean_right_1 << END\n"}) {
     const auto at = script.find(block);
     ASSERT_NE(at, std::string::npos) << block;

@@ -1,8 +1,14 @@
 #include "runner/store/hdf5_file.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <map>
 
 #include "runner/store/durable.h"
 #include "runner/store/run_folder.h"
@@ -172,6 +178,46 @@ TEST(Hdf5Reader, NoticesValuesThatAreNotThoseWritten) {
     EXPECT_EQ(error.kind, StoreError::Kind::damaged);
   }
   reader.close();
+}
+
+TEST(Hdf5Reader, RefusesAFileWithAPieceThatReadsAsZeros) {
+  // More names in a group than its header holds. What the library does not set in its memory is no zero there.
+  constexpr std::size_t kPiece = 64;
+  const Scratch scratch;
+  const std::filesystem::path file = scratch.path() / "file.h5";
+  std::map<std::string, std::vector<double>> written;
+  for (int i = 0; i < 20; ++i) written["/group/name_" + std::to_string(i)] = {0.5 + i, 1};
+  FileWriter writer(file, Storage::plain);
+  for (const auto& [name, values] : written) writer.dataset(name, {2, 0}, values);
+  writer.close();
+  const std::string whole = read_text(file);
+  // In a process of its own, which has read nothing yet: 0 read rightly, 1 refused, 2 wrong.
+  const auto in_child = [&] {
+    ::mallopt(M_PERTURB, 0xA5);
+    try {
+      FileReader reader(file);
+      const std::vector<std::string> found = reader.datasets("/");
+      bool right = found.size() == written.size();
+      for (const std::string& name : found) right = right && reader.read<double>(name) == written.at(name);
+      reader.close();
+      return right ? 0 : 2;
+    } catch (const StoreError& error) {
+      return error.kind == StoreError::Kind::damaged ? 1 : 2;
+    }
+  };
+  int refused = 0;
+  for (std::size_t at = 0; at < whole.size(); at += kPiece) {
+    std::string damaged = whole;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(at), std::min(kPiece, whole.size() - at), '\0');
+    std::ofstream(file, std::ios::binary) << damaged;
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(in_child());
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) < 2) << "zeros from byte " << at << ": status " << status;
+    refused += WIFEXITED(status) && WEXITSTATUS(status) == 1 ? 1 : 0;
+  }
+  EXPECT_GT(refused, 20);
 }
 
 TEST(Hdf5HandleDeathTest, LeftOpenWithoutAnErrorEndsTheProgram) {
