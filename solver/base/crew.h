@@ -9,8 +9,9 @@
 
 namespace seapile::base {
 
-/// Where threads meet, some tens of thousands of times per second: each wait is a few microseconds of work away from the
-/// next, so a thread looks for a while before it asks the system to be woken. To be woken takes far longer than that.
+/// Where threads meet, some tens of thousands of times per second: each wait is a few microseconds of work away from
+/// the next, so a thread looks for a while before it asks the system to be woken. To be woken takes far longer than
+/// that.
 class Meeting {
  public:
   static constexpr int kLooks = 300'000;  ///< a few tenths of a millisecond
@@ -42,8 +43,9 @@ class Meeting {
 
 /// Threads from the start of a run to its end; between two jobs they wait for the next.
 ///
-/// On a machine that others use, a meeting waits for the system to let the other thread run, which takes longer than the
-/// work. A crew that has met this works the next jobs with its first thread alone, twice as many each time in a row.
+/// On a machine that others use, a meeting waits for the system to let the other thread run, which takes longer than
+/// the work. A crew that has met this works the next jobs with its first thread alone, twice as many each time in a
+/// row.
 class Crew {
  public:
   explicit Crew(int threads, int looks = Meeting::kLooks) : threads_(threads), meeting_(looks) {
@@ -96,16 +98,18 @@ class Crew {
   Meeting meeting_;
   const void* job_ = nullptr;
   void (*call_)(const void*, int, int) noexcept = nullptr;
-  bool late_ = false;                       ///< the first thread lay down in this job
-  std::int64_t patience_ = 1, alone_ = 0;   ///< jobs
+  bool late_ = false;                      ///< the first thread lay down in this job
+  std::int64_t patience_ = 1, alone_ = 0;  ///< jobs
   std::vector<std::jthread> others_;
 };
 
 /// Calls work(me, threads) on all threads of a crew; without one, work(0, 1).
 template <class Work>
 void together(Crew* crew, const Work& work) {
-  if (crew != nullptr) crew->run(work);
-  else work(0, 1);
+  if (crew != nullptr)
+    crew->run(work);
+  else
+    work(0, 1);
 }
 
 }  // namespace seapile::base

@@ -39,15 +39,18 @@ constexpr Wall kWalls[] = {Wall::left, Wall::right, Wall::base};
 /// Gap of a grain to a wall.
 double gap(const Disc& d, Wall wall, const Box& box) {
   switch (wall) {
-    case Wall::left: return d.x - box.left - d.radius;
-    case Wall::right: return box.right - d.x - d.radius;
-    case Wall::base: return d.y - box.base - d.radius;
+    case Wall::left:
+      return d.x - box.left - d.radius;
+    case Wall::right:
+      return box.right - d.x - d.radius;
+    case Wall::base:
+      return d.y - box.base - d.radius;
   }
   throw std::logic_error("unknown wall");
 }
 
-/// Greedy colouring in the order given: each contact takes the lowest colour that neither of its grains has. Walls do not
-/// constrain: their points belong to one contact each. Grains are those of [first, first + count).
+/// Greedy colouring in the order given: each contact takes the lowest colour that neither of its grains has. Walls do
+/// not constrain: their points belong to one contact each. Grains are those of [first, first + count).
 class Colouring {
  public:
   Colouring(std::int32_t first, std::int32_t count) : first_(first), used_(count) {}
@@ -74,8 +77,8 @@ class Colouring {
 
  private:
   std::int32_t first_;
-  std::vector<std::uint64_t> used_;                          ///< colours below 64, a bit each
-  std::set<std::pair<std::int32_t, std::int32_t>> beyond_;   ///< grain and colour, for the others
+  std::vector<std::uint64_t> used_;                         ///< colours below 64, a bit each
+  std::set<std::pair<std::int32_t, std::int32_t>> beyond_;  ///< grain and colour, for the others
 };
 
 /// Near contacts first: they fill the first blocks of few colours, and blocks of far ones rest until they are needed.
@@ -96,17 +99,17 @@ struct TileList {
   std::array<std::vector<std::int32_t>, 3> walls;  ///< grains of the tile at each wall, ascending
   std::int32_t first_pair = 0;
   std::array<std::int32_t, 3> first_wall{};
-  std::vector<Candidate<Real>> own;                ///< of pairs within the tile, then of walls
-  std::vector<Candidate<Real>> crossing;           ///< of pairs with grains of later tiles
-  std::vector<std::int32_t> crossing_region;       ///< to which those belong
+  std::vector<Candidate<Real>> own;           ///< of pairs within the tile, then of walls
+  std::vector<Candidate<Real>> crossing;      ///< of pairs with grains of later tiles
+  std::vector<std::int32_t> crossing_region;  ///< to which those belong
 };
 
 /// The contacts of a region while they are coloured and put into blocks.
 template <class Real>
 struct Group {
-  std::vector<Candidate<Real>> contacts;            ///< near ones first
-  std::vector<std::int32_t> colour;                 ///< (contacts)
-  std::vector<std::array<std::int32_t, 2>> members; ///< per colour: contacts of grains, with walls
+  std::vector<Candidate<Real>> contacts;             ///< near ones first
+  std::vector<std::int32_t> colour;                  ///< (contacts)
+  std::vector<std::array<std::int32_t, 2>> members;  ///< per colour: contacts of grains, with walls
   std::int32_t blocks = 0, empty_lanes = 0, first_block = 0, first_colour = 0, first_filler = 0;
 
   void give_colours(std::int32_t first_grain, std::int32_t grain_count) {
@@ -130,7 +133,10 @@ template <class Real>
 class Lister {
  public:
   Lister(const ContactSystem<Real>& system, const Grains& grains, const Box& box)
-      : old_(system), regions_(system.regions), grains_(grains), box_(box),
+      : old_(system),
+        regions_(system.regions),
+        grains_(grains),
+        box_(box),
         grid_({grains.disc.data(), grains.count()}, system.skin) {}
 
   /// Pairs and wall contacts of a tile.
@@ -180,7 +186,8 @@ class Lister {
   /// Contacts of a region, in colours.
   void group(std::int32_t region, const std::vector<TileList<Real>>& lists, Group<Real>& group) const {
     const Region& r = regions_[region];
-    if (r.is_tile()) group.contacts = lists[r.first_tile].own;
+    if (r.is_tile())
+      group.contacts = lists[r.first_tile].own;
     else
       for (std::int32_t tile = r.first_tile; tile < r.last_tile; ++tile)
         for (std::size_t k = 0; k < lists[tile].crossing.size(); ++k)
@@ -211,8 +218,8 @@ class Lister {
   CellGrid grid_;
 };
 
-/// Puts a group's contacts into its blocks: per colour those of grains, near to far, then those with walls, each filled up
-/// to whole blocks.
+/// Puts a group's contacts into its blocks: per colour those of grains, near to far, then those with walls, each filled
+/// up to whole blocks.
 template <class Real>
 void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& system) {
   ContactBlocks<Real>& blocks = system.blocks;
@@ -247,8 +254,8 @@ void fill(const Group<Real>& group, const Grains& grains, ContactSystem<Real>& s
   }
 }
 
-/// The bodies after the grains, and what there is of each block. Fillers do not move and stand in pairs one apart, so that their
-/// normal is a number.
+/// The bodies after the grains, and what there is of each block. Fillers do not move and stand in pairs one apart, so
+/// that their normal is a number.
 template <class Real>
 void place_fillers(ContactSystem<Real>& system, Grains& grains) {
   const std::size_t count = grains.count();
@@ -260,7 +267,8 @@ void place_fillers(ContactSystem<Real>& system, Grains& grains) {
   std::fill(system.before.begin() + static_cast<std::ptrdiff_t>(count), system.before.end(), Before<Real>{});
   grains.disc.resize(bodies);
   std::fill(grains.disc.begin() + static_cast<std::ptrdiff_t>(count), grains.disc.end(), Disc{});
-  for (std::size_t body = first_point(count) + blocks.wall.size() + 1; body < bodies; body += 2) grains.disc[body].x = 1;
+  for (std::size_t body = first_point(count) + blocks.wall.size() + 1; body < bodies; body += 2)
+    grains.disc[body].x = 1;
   system.blocks.active.assign(blocks.block.size(), 1);
   system.blocks.step_impulse.resize(blocks.block.size());
 }
@@ -326,7 +334,8 @@ void list_contacts(ContactSystem<Real>& system, Grains& grains, const Box& box, 
   for_tiles(regions, crew, [&](std::int32_t tile) {
     std::copy(lists[tile].pairs.begin(), lists[tile].pairs.end(), system.pair.begin() + lists[tile].first_pair);
     const std::int32_t last = regions.first_grain(tile + 1);
-    for (std::int32_t i = regions.first_grain(tile); i < last; ++i) system.listed[i] = {grains.disc[i].x, grains.disc[i].y};
+    for (std::int32_t i = regions.first_grain(tile); i < last; ++i)
+      system.listed[i] = {grains.disc[i].x, grains.disc[i].y};
   });
 
   system.listed_closing = system.closing;
@@ -370,9 +379,15 @@ void place_wall_points(const ContactSystem<Real>& system, Grains& grains, const 
     const Disc& grain = grains.disc[system.blocks.wall_grain[k]];
     Disc& foot = grains.disc[first_point(count) + k];
     switch (system.blocks.wall[k]) {
-      case Wall::left: foot.x = box.left, foot.y = grain.y; break;
-      case Wall::right: foot.x = box.right, foot.y = grain.y; break;
-      case Wall::base: foot.x = grain.x, foot.y = box.base; break;
+      case Wall::left:
+        foot.x = box.left, foot.y = grain.y;
+        break;
+      case Wall::right:
+        foot.x = box.right, foot.y = grain.y;
+        break;
+      case Wall::base:
+        foot.x = grain.x, foot.y = box.base;
+        break;
     }
   }
 }

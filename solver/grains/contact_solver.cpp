@@ -18,7 +18,8 @@ ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& 
 }
 
 template <class Real>
-std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body) {
+std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>& system, const Grains& grains,
+                                               const RigidBody* body) {
   std::vector<TouchingContact> touching;
   const ContactBlocks<Real>& blocks = system.blocks;
   const auto add = [&](std::int32_t first, std::int32_t second, double size, std::int32_t slot) {
@@ -59,7 +60,8 @@ struct RegionOverlaps {
 };
 
 template <class Real>
-RegionOverlaps overlaps_of(const ContactBlocks<Real>& blocks, const Grains& grains, std::int32_t region, std::size_t keep) {
+RegionOverlaps overlaps_of(const ContactBlocks<Real>& blocks, const Grains& grains, std::int32_t region,
+                           std::size_t keep) {
   RegionOverlaps found;
   const BlockRange range = blocks_of(blocks, region);
   found.largest.reserve(static_cast<std::size_t>(range.last - range.first) * kLanes);
@@ -77,8 +79,8 @@ RegionOverlaps overlaps_of(const ContactBlocks<Real>& blocks, const Grains& grai
   }
   found.touching = static_cast<std::int64_t>(found.largest.size());
   if (found.largest.size() > keep) {
-    std::nth_element(found.largest.begin(), found.largest.begin() + static_cast<std::ptrdiff_t>(keep), found.largest.end(),
-                     std::greater<>());
+    std::nth_element(found.largest.begin(), found.largest.begin() + static_cast<std::ptrdiff_t>(keep),
+                     found.largest.end(), std::greater<>());
     found.largest.resize(keep);
   }
   return found;
@@ -87,9 +89,11 @@ RegionOverlaps overlaps_of(const ContactBlocks<Real>& blocks, const Grains& grai
 }  // namespace
 
 template <class Real>
-OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body, base::Crew* crew) {
+OverlapStatistics overlaps(const ContactSystem<Real>& system, const Grains& grains, const RigidBody* body,
+                           base::Crew* crew) {
   const ContactBlocks<Real>& blocks = system.blocks;
-  const std::size_t at_most = blocks.block.size() * kLanes + (body ? body->contact.size() : 0), keep = at_most / 1000 + 1;
+  const std::size_t at_most = blocks.block.size() * kLanes + (body ? body->contact.size() : 0),
+                    keep = at_most / 1000 + 1;
   std::vector<RegionOverlaps> parts(blocks.region_colour.empty() ? 0 : system.regions.count());
   if (!parts.empty())
     for_regions(system.regions, crew, [&](std::int32_t r) { parts[r] = overlaps_of(blocks, grains, r, keep); });
@@ -133,11 +137,12 @@ Energy energy(const ContactSystem<Real>& system, const Grains& grains, double gr
   return sum;
 }
 
-#define SEAPILE_INSTANTIATE(Real)                                                                                     \
-  template ContactReport integrate(ContactSystem<Real>&, Grains&, const Box&, const ContactLaw&, RigidBody*,           \
-                                   std::span<const double>, bool, ContactTotals&, const Team&, base::Profile&);             \
-  template std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>&, const Grains&, const RigidBody*); \
-  template OverlapStatistics overlaps(const ContactSystem<Real>&, const Grains&, const RigidBody*, base::Crew*);         \
+#define SEAPILE_INSTANTIATE(Real)                                                                                \
+  template ContactReport integrate(ContactSystem<Real>&, Grains&, const Box&, const ContactLaw&, RigidBody*,     \
+                                   std::span<const double>, bool, ContactTotals&, const Team&, base::Profile&);  \
+  template std::vector<TouchingContact> touching_contacts(const ContactSystem<Real>&, const Grains&,             \
+                                                          const RigidBody*);                                     \
+  template OverlapStatistics overlaps(const ContactSystem<Real>&, const Grains&, const RigidBody*, base::Crew*); \
   template Energy energy(const ContactSystem<Real>&, const Grains&, double, double, base::Crew*);
 SEAPILE_INSTANTIATE(float)
 SEAPILE_INSTANTIATE(double)

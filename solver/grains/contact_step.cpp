@@ -49,8 +49,7 @@ Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, con
                          std::span<const double> body_path, base::Crew* crew) {
   const double fastest = largest(system, crew, [&](std::int32_t i) { return squared_speed(system.motion(i)); });
   Closing closing;
-  closing.body_speed =
-      body_path.empty() ? (body ? norm(body->velocity) : 0) : std::abs(body_path.back()) / law.step;
+  closing.body_speed = body_path.empty() ? (body ? norm(body->velocity) : 0) : std::abs(body_path.back()) / law.step;
   closing.margin =
       closing.body_speed * law.step + 4 * law.gravity * law.step * law.step + 0.01 * system.smallest_radius;
   closing.reach = 6 * law.step * std::max(std::sqrt(fastest), closing.body_speed) + closing.margin;
@@ -61,8 +60,8 @@ Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, con
 template <class Real>
 bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, RigidBody* body, const Closing& closing,
                 double step, base::Crew* crew) {
-  // Two grains that may cross the whole skin within this step are looked for farther out; as the skin says less than such
-  // a list holds, it wears early. The lists of the body wear by its own path too.
+  // Two grains that may cross the whole skin within this step are looked for farther out; as the skin says less than
+  // such a list holds, it wears early. The lists of the body wear by its own path too.
   const double skin = system.skin;
   const bool leaps = closing.likely > skin;
   const bool worn = leaps || list_is_worn(system, grains, std::min(closing.reach, 0.5 * skin), crew);
@@ -139,12 +138,13 @@ void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::in
   }
 }
 
-#define SEAPILE_INSTANTIATE(Real)                                                                                      \
-  template Closing expected_closing(ContactSystem<Real>&, const ContactLaw&, const RigidBody*, std::span<const double>, \
-                                    base::Crew*);                                                                      \
-  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, base::Crew*);             \
-  template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                                      \
-  template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                                      \
+#define SEAPILE_INSTANTIATE(Real)                                                                         \
+  template Closing expected_closing(ContactSystem<Real>&, const ContactLaw&, const RigidBody*,            \
+                                    std::span<const double>, base::Crew*);                                \
+  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, \
+                           base::Crew*);                                                                  \
+  template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                         \
+  template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                         \
   template void keep_step_impulses(ContactBlocks<Real>&, std::int32_t, std::int32_t, bool);
 SEAPILE_INSTANTIATE(float)
 SEAPILE_INSTANTIATE(double)

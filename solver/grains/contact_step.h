@@ -1,5 +1,5 @@
-// What every contact method does around its solve: lists that hold all contacts of the step, detection, places at the end,
-// and what the walls have felt.
+// What every contact method does around its solve: lists that hold all contacts of the step, detection, places at the
+// end, and what the walls have felt.
 #pragma once
 
 #include <algorithm>
@@ -84,7 +84,8 @@ void detect(Worker& worker, std::size_t part, ContactSystem<Real>& system, auto&
   worker.climb(part, [&](std::int32_t region) {
     const Region& r = system.regions[region];
     if (r.is_tile())
-      for (std::int32_t i = 4 * system.regions.first_group(r.first_tile); i < 4 * system.regions.first_group(r.last_tile); ++i)
+      for (std::int32_t i = 4 * system.regions.first_group(r.first_tile);
+           i < 4 * system.regions.first_group(r.last_tile); ++i)
         system.before[i] = {0, 0, 0, system.before[i].half_mass};
     const BlockRange blocks = blocks_of(system.blocks, region);
     refresh(blocks.first, blocks.last);

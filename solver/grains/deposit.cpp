@@ -49,7 +49,8 @@ std::vector<std::int32_t> largest_cut(std::span<const Disc> discs, const Regions
   return cut;
 }
 
-/// Puts the grains at a cut together at the start of their tile: a thread that fetches them from another fetches nothing else.
+/// Puts the grains at a cut together at the start of their tile: a thread that fetches them from another fetches
+/// nothing else.
 std::vector<std::size_t> borders_first(std::span<const Disc> discs) {
   const Regions regions(discs.size());
   const std::vector<std::int32_t> cut = largest_cut(discs, regions);
@@ -91,7 +92,8 @@ Grains arrange(std::vector<GivenGrain> given, double density) {
 
 Grains deposit(const GrainsSpec& spec, const Box& box, std::uint64_t seed) {
   const double width = box.right - box.left;
-  const auto columns = std::max<std::int64_t>(1, static_cast<std::int64_t>(width / (2 * spec.radius.max * kLatticeRoom)));
+  const auto columns =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(width / (2 * spec.radius.max * kLatticeRoom)));
   const double pitch = width / static_cast<double>(columns);
   const double row_height = 2 * spec.radius.max * kLatticeRoom;
   std::vector<GivenGrain> given;

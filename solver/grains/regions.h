@@ -1,10 +1,11 @@
 // How a bed is shared out: into tiles, and into regions of them.
 //
-// Grains stand in memory along a Hilbert curve, so that a run of them is a compact piece of the bed. The bed is cut in half,
-// each half again, and so on down to regions of a few tiles; a tile is a region, too. A contact belongs to the smallest region that
-// holds both of its grains. Regions of which none holds another share no grain: threads work on them side by side, and
-// a thread that has done both halves of a region goes on with the contacts across the cut. Where the cuts are depends on the
-// number of grains alone, so no number of threads changes the order in which contacts are solved.
+// Grains stand in memory along a Hilbert curve, so that a run of them is a compact piece of the bed. The bed is cut in
+// half, each half again, and so on down to regions of a few tiles; a tile is a region, too. A contact belongs to the
+// smallest region that holds both of its grains. Regions of which none holds another share no grain: threads work on
+// them side by side, and a thread that has done both halves of a region goes on with the contacts across the cut. Where
+// the cuts are depends on the number of grains alone, so no number of threads changes the order in which contacts are
+// solved.
 #pragma once
 
 #include <cstddef>

@@ -12,8 +12,8 @@
 namespace seapile::grains {
 
 /// The regions of one thread of a crew. Threads are divided among the two halves of a region until each has one
-/// of its own; a region that holds several threads' own is done by the first of them. Numbers of threads that are powers of two have
-/// equal shares.
+/// of its own; a region that holds several threads' own is done by the first of them. Numbers of threads that are
+/// powers of two have equal shares.
 class Share {
  public:
   Share(const Regions& regions, int me, int threads) : me_(me), threads_(threads) {
@@ -100,8 +100,8 @@ class Worker : public Share {
     lap(waiting_);
   }
 
-  /// Calls work(region) for this thread's regions, each after all that it holds, whoever does those. Does not wait for the
-  /// end: the first thread goes on while the others' work inside their own regions is done.
+  /// Calls work(region) for this thread's regions, each after all that it holds, whoever does those. Does not wait for
+  /// the end: the first thread goes on while the others' work inside their own regions is done.
   void climb(std::size_t part, auto&& work) {
     for (std::int32_t region = first_; region < last_; ++region) work(region);
     for (int level = levels_ - 1; level >= 0; --level) {

@@ -65,7 +65,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   BodySweep body_sweep;
   base::Vec2 body_before;  // velocity of the body at the start of the sub-step
   std::atomic<std::int64_t> touching = 0;
-  double kept_work = 0;    // of the body's kept impulses on its own motion, as the grains feel them [J/m]
+  double kept_work = 0;  // of the body's kept impulses on its own motion, as the grains feel them [J/m]
 
   const auto refresh = [&](std::int32_t first, std::int32_t last) {
     kernel.refresh(blocks.block.data(), blocks.active.data(), blocks.wake.data(), first, last, grains.disc.data(),
@@ -95,9 +95,10 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
       worker.climb(in_sweeps, [&](std::int32_t region) {
         const Region& r = regions[region];
         if (r.is_tile())
-          (k == 0 ? kernel.begin : kernel.advance)(system.group.data(), system.before.data(), regions.first_group(r.first_tile),
-                                                   regions.first_group(r.last_tile), static_cast<Real>(h),
-                                                   static_cast<Real>(law.gravity), &system.body_sums[r.first_tile]);
+          (k == 0 ? kernel.begin : kernel.advance)(system.group.data(), system.before.data(),
+                                                   regions.first_group(r.first_tile), regions.first_group(r.last_tile),
+                                                   static_cast<Real>(h), static_cast<Real>(law.gravity),
+                                                   &system.body_sums[r.first_tile]);
         for (std::int32_t colour = blocks.region_colour[region]; colour < blocks.region_colour[region + 1]; ++colour) {
           const Colour& c = blocks.colour[colour];
           sweep(c.first, c.first_wall, law.friction_grain, system.sweep_sums[colour]);
@@ -155,8 +156,8 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   return report;
 }
 
-#define SEAPILE_INSTANTIATE(Real)                                                                                      \
-  template ContactReport integrate_softly(ContactSystem<Real>&, Grains&, const Box&, const ContactLaw&, RigidBody*,    \
+#define SEAPILE_INSTANTIATE(Real)                                                                                   \
+  template ContactReport integrate_softly(ContactSystem<Real>&, Grains&, const Box&, const ContactLaw&, RigidBody*, \
                                           std::span<const double>, bool, ContactTotals&, const Team&, base::Profile&);
 SEAPILE_INSTANTIATE(float)
 SEAPILE_INSTANTIATE(double)

@@ -40,7 +40,8 @@ TEST(Regions, EachStandsBehindAllThatItHoldsAndTheLastIsTheBed) {
     EXPECT_EQ(regions[regions.count() - 1].last_tile, regions.tiles());
     for (std::int32_t r = 0; r < regions.count(); ++r)
       for (std::int32_t q = 0; q < regions.count(); ++q) {
-        const bool inside = regions[r].first_tile <= regions[q].first_tile && regions[q].last_tile <= regions[r].last_tile;
+        const bool inside =
+            regions[r].first_tile <= regions[q].first_tile && regions[q].last_tile <= regions[r].last_tile;
         EXPECT_EQ(inside, regions.first_inside(r) <= q && q <= r) << q << " in " << r;
       }
   }
