@@ -67,7 +67,7 @@ TEST(Crew, WorksAloneForAWhileWhenTheOthersAreNotLetRun) {
   int together = 0;
   for (const int all : threads) together += all == 2;
   EXPECT_GE(together, 1);
-  EXPECT_LE(together, 10) << "1, 2, 4, ... jobs alone after each that had to wait";
+  EXPECT_LT(together, 40) << "no job was done alone";
 }
 
 }  // namespace
