@@ -9,6 +9,7 @@
 #include <set>
 
 #include "solver/grains/neighbours.h"
+#include "solver/grains/regions.h"
 
 namespace seapile::grains {
 namespace {
@@ -100,6 +101,25 @@ TEST(Arrange, NeighboursInMemoryAreNeighboursInSpace) {
     }
     EXPECT_LT((x1 - x0) + (y1 - y0), 1.1 * 2 * 20 * 0.03) << "a quarter of the square is a quarter of the curve";
   }
+}
+
+// 2025 grains are four tiles in two halves. A core that works on one half fetches what lies at the cut and nothing else.
+TEST(Arrange, GrainsAtACutStandFirstInTheirTile) {
+  std::vector<GivenGrain> given;
+  for (std::int64_t id = 0; id < 2025; ++id)
+    given.push_back({id, 0.03 * static_cast<double>(id % 45), 0.03 * static_cast<double>(id / 45), 0.014});
+  const Grains grains = arrange(given, 1500);
+  const Regions regions(grains.count());
+  const std::int32_t bed = regions.count() - 1;
+  ASSERT_GE(regions[bed].first_half, 0);
+  std::vector<bool> at_cut(grains.count(), false);
+  for (const Pair& p : neighbour_pairs_brute_force(grains.disc, 0.007))
+    if (regions.holding(regions.tile_of(p.i), regions.tile_of(p.j)) == bed) at_cut[p.i] = at_cut[p.j] = true;
+  EXPECT_GT(std::count(at_cut.begin(), at_cut.end(), true), 60);
+  for (std::int32_t tile = 0; tile < regions.tiles(); ++tile)
+    EXPECT_TRUE(std::is_partitioned(at_cut.begin() + regions.first_grain(tile), at_cut.begin() + regions.first_grain(tile + 1),
+                                    [](bool cut) { return cut; }))
+        << "tile " << tile;
 }
 
 TEST(Arrange, NoGrainAndOneGrainAreArrangedToo) {
