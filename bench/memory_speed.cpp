@@ -30,13 +30,6 @@ constexpr std::size_t kUnroll = 32;
 constexpr std::size_t kMinimumBytes = std::size_t{64} << 20;  // moved by one measurement, so that clocks do not matter
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-/// Of the calling thread: what a neighbour takes from it is not counted.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 // What the compiler may not leave out: it believes that the memory is looked at.
 inline void look_at(const void* p) { __asm__ volatile("" : : "r"(p) : "memory"); }
 

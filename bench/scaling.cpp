@@ -4,8 +4,9 @@
 //
 // For each number of grains: a bed in a box of the thesis' shape, settled by the product's rule, and the thesis' pile
 // driven into it; from that state, the same drive over a fixed simulated time with each number of threads, in turn,
-// several times. One row per grains and threads, medians. What the ratios say goes to the standard error, the bytes to
-// the traffic file.
+// several times; and with as many drives at once, each on one thread, which tells what the machine's cores give when
+// they do not wait for each other. One row of each kind, medians. What the ratios say goes to the standard error, the
+// bytes to the traffic file.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -24,14 +25,20 @@ using namespace seapile::bench;
 
 namespace {
 
-void row(const ScalingState& start, int threads, const std::vector<ScalingRun>& runs, double memory) {
+/// Drives at once, and threads of each.
+struct Kind {
+  int at_once, threads;
+  friend auto operator<=>(const Kind&, const Kind&) = default;
+};
+
+void row(const ScalingState& start, Kind kind, const std::vector<ScalingRun>& runs, double memory) {
   ScalingRun r = median_of(runs);
   double shortest = r.cost.wall, longest = r.cost.wall, parts = 0;
   for (const ScalingRun& run : runs)
     shortest = std::min(shortest, run.cost.wall), longest = std::max(longest, run.cost.wall);
   const auto grains = static_cast<double>(start.scene.bed.grains.count);
-  std::printf("%.0f,%d,%zu,%.2f,%.3f,%.3f,%.3f,%.3f,%.0f,%.4g,%.3f,%.3f,%.0f,%.1f", grains, threads, runs.size(),
-              r.cost.clock, r.cost.cpu, r.cost.wall, shortest, longest, r.substeps, r.contact_substeps,
+  std::printf("%.0f,%d,%d,%zu,%.2f,%.3f,%.3f,%.3f,%.3f,%.0f,%.4g,%.3f,%.3f,%.0f,%.1f", grains, kind.threads,
+              kind.at_once, runs.size(), r.cost.clock, r.cost.cpu, r.cost.wall, shortest, longest, r.substeps, r.contact_substeps,
               1e9 * r.cost.cpu / r.contact_substeps, 1e9 * r.cost.cpu / (r.substeps * grains), r.rebuilds,
               memory * 1e-6);
   for (const char* part : kParts) {
@@ -42,21 +49,46 @@ void row(const ScalingState& start, int threads, const std::vector<ScalingRun>& 
   std::fflush(stdout);
 }
 
-/// Each number of threads in turn, again and again: a disturbance by neighbours hits all of them alike.
-std::map<int, std::vector<ScalingRun>> run_all(const ScalingState& start, const ScalingOptions& options,
-                                               std::map<int, double>& memory) {
-  std::map<int, std::vector<ScalingRun>> runs;
+/// What is measured: each number of threads, and each but the first as so many drives at once.
+std::vector<Kind> kinds_of(const ScalingOptions& options) {
+  std::vector<Kind> kinds;
+  for (const int threads : options.threads) kinds.push_back({1, threads});
+  for (const int threads : options.threads)
+    if (threads > 1) kinds.push_back({threads, 1});
+  return kinds;
+}
+
+/// Each kind in turn, again and again: a disturbance by neighbours hits all of them alike.
+std::map<Kind, std::vector<ScalingRun>> run_all(const ScalingState& start, const ScalingOptions& options,
+                                                std::map<Kind, double>& memory) {
+  std::map<Kind, std::vector<ScalingRun>> runs;
   std::optional<std::uint64_t> hash;
   for (int k = 0; k < options.repeat; ++k)
-    for (const int threads : options.threads) {
+    for (const Kind& kind : kinds_of(options)) {
       forget_peak_memory();
-      runs[threads].push_back(run_once(start, options, threads));
-      memory[threads] = std::max(memory[threads], peak_memory());
-      if (hash.value_or(runs[threads].back().state_hash) != runs[threads].back().state_hash)
+      runs[kind].push_back(run_at_once(start, options, kind.at_once, kind.threads));
+      memory[kind] = std::max(memory[kind], peak_memory());
+      if (hash.value_or(runs[kind].back().state_hash) != runs[kind].back().state_hash)
         throw std::runtime_error("two runs of the same case differ");
-      hash = runs[threads].back().state_hash;
+      hash = runs[kind].back().state_hash;
     }
   return runs;
+}
+
+/// The speed-up of threads, and that of as many drives at once: pair by pair, medians.
+void tell_speed_up(double grains, int few, int threads, const std::map<Kind, std::vector<ScalingRun>>& runs) {
+  const auto ratios = [&](const Kind& kind, double drives) {
+    std::vector<double> of;
+    for (std::size_t k = 0; k < runs.at(kind).size(); ++k)
+      of.push_back(drives * runs.at({1, few})[k].cost.wall / runs.at(kind)[k].cost.wall);
+    return median(of);
+  };
+  std::fprintf(stderr, "%.0f grains: wall time with %d threads over %d threads: %.2f", grains, few, threads,
+               ratios({1, threads}, 1));
+  if (few == 1 && threads > 1)
+    std::fprintf(stderr, "; %d drives at once, each on one thread, in the time of one: %.2f", threads,
+                 ratios({threads, 1}, threads));
+  std::fprintf(stderr, "\n");
 }
 
 void traffic_rows(std::ofstream& file, const ScalingState& start, const ScalingOptions& options,
@@ -111,7 +143,7 @@ int main(int argc, char** argv) {
                "read_speed[GB/s],update_speed[GB/s],write_speed[GB/s],at_bandwidth[ns],measured[ns],share\n";
   }
   std::printf(
-      "grains,threads,runs,clock[GHz],cpu[s],wall[s],wall_min[s],wall_max[s],substeps,contact_substeps,"
+      "grains,threads,at_once,runs,clock[GHz],cpu[s],wall[s],wall_min[s],wall_max[s],substeps,contact_substeps,"
       "cpu_per_contact_substep[ns],cpu_per_grain_substep[ns],lists,peak_memory[MB]");
   for (const char* part : kParts) std::printf(",%s[s]", part);
   std::printf(",rest[s]\n");
@@ -122,19 +154,17 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%lld grains: settled in %.2f s, which took %.1f CPU s; pile to %.2f m: %.1f CPU s\n",
                  static_cast<long long>(grains), start.bed.records.back().time, start.settling.cpu,
                  start.records.back().depth, start.driving.cpu);
-    std::map<int, double> memory;
+    std::map<Kind, double> memory;
     const auto runs = run_all(start, options, memory);
     std::map<int, ScalingRun> medians;
-    for (const int threads : options.threads) {
-      row(start, threads, runs.at(threads), memory[threads]);
-      medians[threads] = median_of(runs.at(threads));
+    for (const Kind& kind : kinds_of(options)) {
+      row(start, kind, runs.at(kind), memory[kind]);
+      if (kind.at_once == 1) medians[kind.threads] = median_of(runs.at(kind));
     }
 
     const int few = options.threads.front();
     for (const int threads : options.threads)
-      if (threads != few)
-        std::fprintf(stderr, "%lld grains: wall time with %d threads over %d threads: %.2f\n",
-                     static_cast<long long>(grains), few, threads, medians[few].cost.wall / medians[threads].cost.wall);
+      if (threads != few) tell_speed_up(static_cast<double>(grains), few, threads, runs);
     const double cost = medians[few].cost.cpu / medians[few].substeps;
     if (least_cost > 0)
       std::fprintf(stderr, "cost of %lld grains over %.0f grains, same steps, %d threads: %.2f\n",

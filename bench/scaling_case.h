@@ -47,6 +47,10 @@ struct ScalingRun {
 };
 ScalingRun run_once(const ScalingState& start, const ScalingOptions& options, int threads);
 
+/// The same run so many times at once, which know nothing of each other: the one that took longest, with its share of
+/// the CPU time.
+ScalingRun run_at_once(const ScalingState& start, const ScalingOptions& options, int at_once, int threads);
+
 /// Median of each number; clock, work and hash are those of the first.
 ScalingRun median_of(const std::vector<ScalingRun>& runs);
 
