@@ -128,13 +128,16 @@ Grouped group_query(Table each, double level) {
   for (std::size_t i = 0; i < each.columns.size(); ++i) {
     switch (each.kinds[i]) {
       case store::ColumnKind::identity:
-        // The four that every answer begins with tell runs apart; those that were asked for are kept.
-        roles.push_back(i >= 4 ? Role::common : each.columns[i] == "outcome" ? Role::outcome : Role::dropped);
+        roles.push_back(Role::dropped);
+        break;
+      case store::ColumnKind::outcome:
+        roles.push_back(Role::outcome);
         break;
       case store::ColumnKind::label:
         roles.push_back(each.columns[i] == kSeed ? Role::dropped : Role::key);
         read_quantities(each, i);
         break;
+      case store::ColumnKind::fact:
       case store::ColumnKind::parameter:
         roles.push_back(Role::common);
         break;

@@ -33,16 +33,18 @@ struct Runs {
   std::size_t left_out = 0;
 };
 
+/// The first of a question's own columns, which stand at the end of the answer.
+std::size_t first_asked(const Table& each, const TrendQuestion& question) {
+  return each.columns.size() - trend_columns(question).size();
+}
+
 Runs runs_of(const Table& each, const TrendQuestion& question) {
   Runs result;
-  std::size_t x = 0;  // the first column behind the labels
   for (std::size_t i = 0; i < each.columns.size(); ++i) {
-    if (each.kinds[i] != ColumnKind::label) continue;
-    if (each.columns[i] != kSeed) result.label_columns.push_back(i);
-    x = i + 1;
+    if (each.kinds[i] == ColumnKind::label && each.columns[i] != kSeed) result.label_columns.push_back(i);
   }
-  if (x == 0) x = 4;
-  const std::size_t y = x + 1, bed = x + 2, effect = x + 3;
+  const auto outcome = static_cast<std::size_t>(std::ranges::find(each.kinds, ColumnKind::outcome) - each.kinds.begin());
+  const std::size_t x = first_asked(each, question), y = x + 1, bed = x + 2, effect = x + 3;
   for (const auto& row : each.rows) {
     for (const std::size_t column : {x, y}) {
       if (std::holds_alternative<std::string>(row[column])) {
@@ -50,7 +52,7 @@ Runs runs_of(const Table& each, const TrendQuestion& question) {
       }
     }
     const auto *abscissa = std::get_if<double>(&row[x]), *ordinate = std::get_if<double>(&row[y]);
-    if (row[3] != Cell{std::string("completed")} || abscissa == nullptr || ordinate == nullptr) {
+    if (row[outcome] != Cell{std::string("completed")} || abscissa == nullptr || ordinate == nullptr) {
       ++result.left_out;
       continue;
     }
@@ -166,7 +168,7 @@ Trend trend(const Table& given, const TrendQuestion& question) {
     trend.label_columns.push_back(each.columns[column]);
     trend.label_units.push_back(each.units[column]);
   }
-  const std::size_t last = each.columns.size() - trend_columns(question).size();
+  const std::size_t last = first_asked(each, question);
   trend.against_unit = each.units[last];
   trend.of_unit = each.units[last + 1];
   if (each.kinds[last + 1] != ColumnKind::metric) {

@@ -18,8 +18,10 @@ using Cell = std::variant<std::monostate, double, std::string>;
 
 /// What a column of a query's answer tells of a run.
 enum class ColumnKind {
-  identity,   ///< which run it is, and how it ended
+  identity,   ///< which run it is: case, number, kind
+  outcome,    ///< how it ended
   label,      ///< what sets its case apart
+  fact,       ///< what else is known of it, where a query asked: the case of its bed
   parameter,  ///< what was asked for
   metric,     ///< what came out
 };

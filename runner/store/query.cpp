@@ -275,13 +275,14 @@ Table query_table(SQLite::Database& sqlite, const std::string& study, const Text
     table.units.push_back(unit);
     table.kinds.push_back(kind);
   };
-  for (const char* name : {"case", "run", "kind", "outcome"}) add(name, "", ColumnKind::identity);
+  for (const char* name : {"case", "run", "kind"}) add(name, "", ColumnKind::identity);
+  add("outcome", "", ColumnKind::outcome);
   for (const std::string& path : labels) add(path, "", ColumnKind::label);
   for (const ExtraColumn& column : columns) {
     add(column.name(), unit_of(sqlite, column),
         column.is_metric()                       ? ColumnKind::metric
         : column.subject() == Subject::parameter ? ColumnKind::parameter
-                                                 : ColumnKind::identity);
+                                                 : ColumnKind::fact);
   }
   for (const ListedRun& run : runs) {
     auto& row = table.rows.emplace_back();

@@ -21,7 +21,7 @@ Table answer() {
   table.columns = {"case", "run", "kind", "outcome", "pile.tip", "speed", "bed.seed", "q_c", "pile.depth"};
   table.units = {"", "", "", "", "", "", "", "Pa", "m"};
   table.kinds = {ColumnKind::identity, ColumnKind::identity, ColumnKind::identity,
-                 ColumnKind::identity, ColumnKind::label,    ColumnKind::label,
+                 ColumnKind::outcome,  ColumnKind::label,    ColumnKind::label,
                  ColumnKind::label,    ColumnKind::metric,   ColumnKind::parameter};
   const auto add = [&](const std::string& tip, const std::string& seed, double q, double depth) {
     table.rows.push_back({tip + seed, "0001", "drive", kDone, tip, "0.4 m/s", seed, q, depth});

@@ -32,10 +32,11 @@ Table answer() {
   table.columns = {"case", "run",      "kind", "outcome", kPrepared, kSpeed, "bed.seed", "bed:solid_fraction",
                    "q_c",  "bed:case", kSpeed};
   table.units = {"", "", "", "", "", "", "", "-", "Pa", "", "m/s"};
-  for (int i = 0; i < 4; ++i) table.kinds.push_back(ColumnKind::identity);
+  for (int i = 0; i < 3; ++i) table.kinds.push_back(ColumnKind::identity);
+  table.kinds.push_back(ColumnKind::outcome);
   for (int i = 0; i < 3; ++i) table.kinds.push_back(ColumnKind::label);
   table.kinds.insert(table.kinds.end(),
-                     {ColumnKind::metric, ColumnKind::metric, ColumnKind::identity, ColumnKind::parameter});
+                     {ColumnKind::metric, ColumnKind::metric, ColumnKind::fact, ColumnKind::parameter});
   for (const double density : {0.80, 0.82}) {
     for (const double speed : {0.4, 0.06}) {  // The smallest need not come first.
       for (const int seed : {1, 2, 3}) {

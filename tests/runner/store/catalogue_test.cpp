@@ -151,8 +151,8 @@ TEST_F(FilledCatalogue, ADriveIsAskedForWhatItsBedIsKnownBy) {
 TEST_F(FilledCatalogue, SaysWhatEachColumnTells) {
   const Table table = Catalogue::open_read_only(root_).query("tips", {}, {"tip_resistance_mean", "bed.seed", "kind"});
   using enum ColumnKind;
-  EXPECT_EQ(table.kinds, (std::vector<ColumnKind>{identity, identity, identity, identity, label, label, metric,
-                                                  parameter, identity}));
+  EXPECT_EQ(table.kinds, (std::vector<ColumnKind>{identity, identity, identity, outcome, label, label, metric,
+                                                  parameter, fact}));
 }
 
 TEST_F(FilledCatalogue, NamesTheNearestOfAnUnknownName) {
