@@ -12,6 +12,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;  // without which clang 14 does not find it
 
 constexpr double kTurn = 2 * std::numbers::pi;
 

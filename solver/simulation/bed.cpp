@@ -144,7 +144,7 @@ Bed prepare_bed(const scene::BedSpec& spec, const std::vector<Array>& given, con
   const double top = surface(sim);
   double touching = 0;  // seen from the grains: a contact of two counts twice
   std::visit(
-      [&](const auto& system) {
+      [&, &sim = sim](const auto& system) {
         const grains::OverlapStatistics contacts = overlaps(system, sim.grains, nullptr);
         touching = static_cast<double>(contacts.touching + contacts.between_grains);
       },

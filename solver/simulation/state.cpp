@@ -292,7 +292,7 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
 void describe(const Simulation& sim, const std::function<void(const ArrayInfo&, ArrayView)>& visit) {
   const Parts parts = take(sim);
   for (const auto& [info, values] : parts.arrays)
-    std::visit([&](const auto& v) { visit(info, view(v)); }, values);
+    std::visit([&, &info = info](const auto& v) { visit(info, view(v)); }, values);
 }
 
 std::vector<Array> snapshot(const Simulation& sim) {
