@@ -3,10 +3,11 @@
 //
 //   peer_scene ours --out DIR [--seed 1] [--solid-fraction 0.82] [--tip conical] [--speed 0.4]
 //                   [--start 0.55] [--from 0.6] [--end 0.8] [--substeps 5,10,20,40] [--sweeps 100,200] [--moments 25]
+//                   [--grains 11596] [--nonsmooth-step 1e-4]
 //   peer_scene overlaps --state DIR/state.json --dt DT DUMP
 //
 // `ours` prepares the bed, drives the pile to the depth `start`, writes DIR/state.data, pile.stl and state.json, drives
-// on to `end` once for each number of sub-steps, and by the non-smooth method (step 1e-4 s) once for each number of sweeps,
+// on to `end` once for each number of sub-steps, and by the non-smooth method once for each number of sweeps,
 // and writes DIR/ours.csv with a row per run and a series of the pile's force beside it. CPU seconds are the process's, from the first record after the state to the last, without what the
 // analysis of overlaps takes. Overlaps are those of the depths from `from` on, by the same function for every code.
 #include <fmt/format.h>
@@ -25,6 +26,7 @@
 
 #include "bench/peers/overlaps.h"
 #include "bench/peers/peer_files.h"
+#include "bench/scaling_case.h"
 #include "solver/pile/pile.h"
 #include "solver/simulation/run.h"
 
@@ -34,7 +36,6 @@ using namespace seapile::simulation;
 namespace {
 
 constexpr std::int64_t kStateSubsteps = 10;  // with which the bed is made and the pile driven to the state
-constexpr double kNonSmoothStep = 1e-4;      // [s], the thesis'
 
 struct Options {
   std::filesystem::path out;
@@ -44,6 +45,8 @@ struct Options {
   double speed = 0.4, start = 0.55, from = 0.6, end = 0.8;
   std::vector<std::int64_t> substeps = {5, 10, 20, 40};
   std::vector<std::int64_t> sweeps;  ///< of the non-smooth method
+  double nonsmooth_step = 1e-4;      ///< [s], the thesis'
+  std::int64_t grains = scene::SceneSpec{}.bed.grains.count;
   int moments = 25;
 };
 
@@ -71,12 +74,10 @@ peers::Surroundings surroundings(const scene::DomainSpec& domain, std::vector<ba
 }
 
 scene::SceneSpec scene_of(const Options& options) {
-  scene::SceneSpec scene;
+  scene::SceneSpec scene = bench::scaled_scene(options.grains, options.speed);
   scene.bed.seed = options.seed;
   scene.bed.preparation.solid_fraction = options.solid_fraction;
-  scene.pile.emplace();
   if (options.tip == "flat") scene.pile->tip = pile::FlatTip{};
-  scene.pile->driving = pile::ConstantDriving{options.speed};
   scene.pile->depth = options.end;
   scene.contact.substeps = kStateSubsteps;
   return scene;
@@ -222,10 +223,10 @@ void run_ours(const Options& options) {
     drive("soft", substeps, scene.contact.step / static_cast<double>(substeps));
   }
   scene.contact = {};
-  scene.contact.step = kNonSmoothStep;
+  scene.contact.step = options.nonsmooth_step;
   for (const std::int64_t sweeps : options.sweeps) {
     scene.contact.method = grains::NonSmoothMethod{sweeps, 0};
-    drive("nonsmooth", sweeps, kNonSmoothStep);
+    drive("nonsmooth", sweeps, options.nonsmooth_step);
   }
 }
 
@@ -272,9 +273,11 @@ int main(int argc, char** argv) {
   ours->add_option("--from", options.from, "depth from which forces and overlaps count [m]");
   ours->add_option("--end", options.end, "depth at the end [m]");
   ours->add_option("--substeps", options.substeps, "per step of 5e-4 s")->delimiter(',')->check(CLI::Range(1, 1000));
-  ours->add_option("--sweeps", options.sweeps, "of the non-smooth method, per step of 1e-4 s")
+  ours->add_option("--sweeps", options.sweeps, "of the non-smooth method, per step")
       ->delimiter(',')
       ->check(CLI::Range(1, 100'000));
+  ours->add_option("--nonsmooth-step", options.nonsmooth_step, "of the non-smooth method [s]")->check(CLI::Range(1e-6, 1e-3));
+  ours->add_option("--grains", options.grains, "in a box of the same shape; the pile stays as it is")->check(CLI::Range(100, 10'000'000));
   ours->add_option("--moments", options.moments, "at which overlaps are taken")->check(CLI::Range(1, 1000));
 
   std::filesystem::path state;
