@@ -29,7 +29,7 @@ COST = ["code", "version", "setting", "ranks", "solves", "kn", "dt", "simulated"
         "kinetic_energy", "kinetic_energy_far", "tip", "speed", "seed", "solid_fraction", "start", "from", "end"]
 STABLE = ["code", "version", "kn", "dt", "stable", "sound", "kinetic_energy_max", "kinetic_energy_far", "cpu_per_s", "reason"]
 FORCE = ["code", "version", "seed", "solid_fraction", "tip", "speed", "solves", "kn", "dt", "from", "end", "force_mean",
-         "force_se", "overlap_p999", "residual", "cpu_per_s"]
+         "force_se", "overlap_p999", "residual", "cpu_per_s", "grains"]
 TUNE = ["code", "version", "change", "kn", "dt", "steps", "cpu_per_s"]
 # Steps of the search for the largest stable one, at the reference stiffness [s]. The first is the usual one: an eighth of
 # the time that two of the smallest grains touch.
@@ -55,7 +55,7 @@ def machine(path):
 def scene(options, folder, seed, substeps, sweeps=()):
     return Scene(options.peer_scene, folder, {
         "seed": seed, "solid-fraction": options.solid_fraction, "tip": options.tip, "speed": options.speed,
-        "start": options.start, "from": options.from_depth, "end": options.end,
+        "grains": options.grains, "start": options.start, "from": options.from_depth, "end": options.end,
         "substeps": ",".join(str(n) for n in substeps), "moments": options.moments,
         "sweeps": ",".join(str(n) for n in sweeps) or None})
 
@@ -64,7 +64,7 @@ def completed(row, code, options, facts):
     mean, error = block_mean(row.pop("forces"), facts["from"], facts["end"])
     return row | {"code": code, "force_mean": mean, "force_se": error, "cpu_per_s": row["cpu"] / row["simulated"],
                   "wall_per_s": row["wall"] / row["simulated"], "tip": options.tip, "speed": options.speed,
-                  "seed": facts["seed"], "solid_fraction": facts["solid_fraction"], "start": facts["start"],
+                  "seed": facts["seed"], "solid_fraction": facts["solid_fraction"], "grains": options.grains, "start": facts["start"],
                   "from": facts["from"], "end": facts["end"]}
 
 
@@ -138,9 +138,9 @@ def cost(options, work):
 def force(options, work):
     path = options.record / "force.csv"
     rows = read_csv(path) if options.keep and path.exists() else []
-    asked = {"tip": options.tip, "speed": options.speed, "from": options.from_depth, "end": options.end}
+    asked = {"tip": options.tip, "speed": options.speed, "grains": options.grains, "from": options.from_depth, "end": options.end}
     if any(r[name] != (value if name == "tip" else recorded(value)) for r in rows for name, value in asked.items()):
-        raise Failed(f"{path} has rows of another tip, speed or depth: give those, or leave --keep")
+        raise Failed(f"{path} has rows of another tip, speed, number of grains or depth: give those, or leave --keep")
     peers_usual = options.stiffness[0], options.dt
     for seed in range(options.first, options.seeds + 1):
         kept = [r for r in rows if r["seed"] == seed]
@@ -212,6 +212,7 @@ def arguments():
         p.add_argument("--codes", type=lambda text: [w for w in text.split(",") if w != "none"], default=["lammps", "liggghts"], help="peers, with commas; none: ours alone")
         p.add_argument("--tip", choices=["conical", "flat"], default="conical")
         p.add_argument("--speed", type=float, default=speed[name], help="of the pile [m/s]")
+        p.add_argument("--grains", type=int, default=11596, help="in a box of the thesis' shape; the pile stays as it is")
         p.add_argument("--solid-fraction", type=float, help="target of the bed's preparation [-]")
         p.add_argument("--start", type=float, default=0.55, help="depth of the state [m]")
         p.add_argument("--from", dest="from_depth", type=float, default=0.6, help="depth from which all is measured [m]")

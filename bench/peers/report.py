@@ -42,7 +42,7 @@ def print_cost(rows):
 
 def refuse_mixed(rows):
     """Ratios bed by bed mean something for one scene, one state per seed, and one force per run."""
-    for name in ("tip", "speed", "from", "end"):
+    for name in ("tip", "speed", "grains", "from", "end"):
         if len({r[name] for r in rows}) > 1:
             raise Failed(f"force.csv mixes rows of different {name}: {', '.join(sorted({str(r[name]) for r in rows}))}")
     beds, forces = {}, {}

@@ -124,7 +124,7 @@ class PeerTable : public testing::Test {
     std::vector<std::string> lines;
     for (int k = 0; k < 4; ++k) {
       const auto add = [&](const std::string& code, const std::string& how, double force, const std::string& residual) {
-        lines.push_back(fmt::format("{},1234567,{},0.80{},conical,0.06,{},0.6,0.8,{:.10f},1,0.01,{},5", code, k + 1, k,
+        lines.push_back(fmt::format("{},1234567,{},0.80{},conical,0.06,{},0.6,0.8,{:.10f},1,0.01,{},5,11596", code, k + 1, k,
                                     how, force, residual));
       };
       add("ours", "10,,5e-05", ours[k], "0.001");
@@ -139,7 +139,7 @@ class PeerTable : public testing::Test {
       std::filesystem::temp_directory_path() / ("seapile_peers_" + std::to_string(::getpid()));
   const std::string head =
       "code,version,seed,solid_fraction,tip,speed,solves,kn,dt,from,end,force_mean,force_se,overlap_p999,residual,"
-      "cpu_per_s";
+      "cpu_per_s,grains";
 };
 
 /// Without the spaces that fill columns.
@@ -175,9 +175,9 @@ TEST_F(PeerTable, DoesNotMindTheOrderOfRowsNorTablesOneAfterTheOther) {
 }
 
 TEST_F(PeerTable, RefusesRowsThatContradictEachOther) {
-  const std::string other_force = "ours,1234567,1,0.800,conical,0.06,10,,5e-05,0.6,0.8,101,1,0.01,0.001,5";
-  const std::string other_bed = "liggghts,3.8.0,1,0.810,conical,0.06,,1e+08,2e-05,0.6,0.8,101,1,0.01,,5";
-  const std::string other_speed = "liggghts,3.8.0,1,0.800,conical,0.4,,1e+08,2e-05,0.6,0.8,101,1,0.01,,5";
+  const std::string other_force = "ours,1234567,1,0.800,conical,0.06,10,,5e-05,0.6,0.8,101,1,0.01,0.001,5,11596";
+  const std::string other_bed = "liggghts,3.8.0,1,0.810,conical,0.06,,1e+08,2e-05,0.6,0.8,101,1,0.01,,5,11596";
+  const std::string other_speed = "liggghts,3.8.0,1,0.800,conical,0.4,,1e+08,2e-05,0.6,0.8,101,1,0.01,,5,11596";
   for (const std::string& line : {other_force, other_bed, other_speed}) {
     std::vector<std::string> lines = rows();
     lines.insert(lines.begin(), head);
