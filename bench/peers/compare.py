@@ -239,6 +239,8 @@ def arguments():
         unknown = set(options.codes) - {"lammps", "liggghts"}
         if unknown:
             parser.error(f"--codes: {', '.join(sorted(unknown))} is not lammps or liggghts")
+        if not 100 <= options.grains <= 10_000_000:
+            parser.error(f"--grains: {options.grains} is not between 100 and 10000000")
         if not 0 < options.start < options.from_depth < options.end < 1.5:
             parser.error("--start, --from, --end must rise, above 0 and below 1.5")
     if options.command == "force" and not 0 < options.first <= options.seeds:
