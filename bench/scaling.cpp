@@ -38,8 +38,8 @@ void row(const ScalingState& start, Kind kind, const std::vector<ScalingRun>& ru
     shortest = std::min(shortest, run.cost.wall), longest = std::max(longest, run.cost.wall);
   const auto grains = static_cast<double>(start.scene.bed.grains.count);
   std::printf("%.0f,%d,%d,%zu,%.2f,%.3f,%.3f,%.3f,%.3f,%.0f,%.4g,%.3f,%.3f,%.0f,%.1f", grains, kind.threads,
-              kind.at_once, runs.size(), r.cost.clock, r.cost.cpu, r.cost.wall, shortest, longest, r.substeps, r.contact_substeps,
-              1e9 * r.cost.cpu / r.contact_substeps, 1e9 * r.cost.cpu / (r.substeps * grains), r.rebuilds,
+              kind.at_once, runs.size(), r.cost.clock, r.cost.cpu, r.cost.wall, shortest, longest, r.substeps,
+              r.contact_substeps, 1e9 * r.cost.cpu / r.contact_substeps, 1e9 * r.cost.cpu / (r.substeps * grains), r.rebuilds,
               memory * 1e-6);
   for (const char* part : kParts) {
     std::printf(",%.3f", r.seconds[part]);
@@ -49,7 +49,7 @@ void row(const ScalingState& start, Kind kind, const std::vector<ScalingRun>& ru
   std::fflush(stdout);
 }
 
-/// What is measured: each number of threads, and each but the first as so many drives at once.
+/// What is measured: each number of threads, and each above one as so many drives at once.
 std::vector<Kind> kinds_of(const ScalingOptions& options) {
   std::vector<Kind> kinds;
   for (const int threads : options.threads) kinds.push_back({1, threads});

@@ -8,8 +8,9 @@
 //
 // `ours` prepares the bed, drives the pile to the depth `start`, writes DIR/state.data, pile.stl and state.json, drives
 // on to `end` once for each number of sub-steps, and by the non-smooth method once for each number of sweeps,
-// and writes DIR/ours.csv with a row per run and a series of the pile's force beside it. CPU seconds are the process's, from the first record after the state to the last, without what the
-// analysis of overlaps takes. Overlaps are those of the depths from `from` on, by the same function for every code.
+// and writes DIR/ours.csv with a row per run and a series of the pile's force beside it. CPU seconds are the process's,
+// from the first record after the state to the last, without what the analysis of overlaps takes. Overlaps are those of
+// the depths from `from` on, by the same function for every code.
 #include <fmt/format.h>
 #include <fmt/os.h>
 #include <CLI/CLI.hpp>
@@ -276,8 +277,10 @@ int main(int argc, char** argv) {
   ours->add_option("--sweeps", options.sweeps, "of the non-smooth method, per step")
       ->delimiter(',')
       ->check(CLI::Range(1, 100'000));
-  ours->add_option("--nonsmooth-step", options.nonsmooth_step, "of the non-smooth method [s]")->check(CLI::Range(1e-6, 1e-3));
-  ours->add_option("--grains", options.grains, "in a box of the same shape; the pile stays as it is")->check(CLI::Range(100, 10'000'000));
+  ours->add_option("--nonsmooth-step", options.nonsmooth_step, "of the non-smooth method [s]")
+      ->check(CLI::Range(1e-6, 1e-3));
+  ours->add_option("--grains", options.grains, "in a box of the same shape; the pile stays as it is")
+      ->check(CLI::Range(100, 10'000'000));
   ours->add_option("--moments", options.moments, "at which overlaps are taken")->check(CLI::Range(1, 1000));
 
   std::filesystem::path state;

@@ -43,7 +43,8 @@ Runs runs_of(const Table& each, const TrendQuestion& question) {
   for (std::size_t i = 0; i < each.columns.size(); ++i) {
     if (each.kinds[i] == ColumnKind::label && each.columns[i] != kSeed) result.label_columns.push_back(i);
   }
-  const auto outcome = static_cast<std::size_t>(std::ranges::find(each.kinds, ColumnKind::outcome) - each.kinds.begin());
+  const auto outcome =
+      static_cast<std::size_t>(std::ranges::find(each.kinds, ColumnKind::outcome) - each.kinds.begin());
   const std::size_t x = first_asked(each, question), y = x + 1, bed = x + 2, effect = x + 3;
   for (const auto& row : each.rows) {
     for (const std::size_t column : {x, y}) {

@@ -21,7 +21,7 @@ enum class ColumnKind {
   identity,   ///< which run it is: case, number, kind
   outcome,    ///< how it ended
   label,      ///< what sets its case apart
-  fact,       ///< what else is known of it, where a query asked: the case of its bed
+  fact,       ///< what else is known of it, where a query asked: the case of its bed, its kind
   parameter,  ///< what was asked for
   metric,     ///< what came out
 };

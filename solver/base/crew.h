@@ -39,12 +39,12 @@ class Meeting {
 /// Threads from the start of a run to its end; between two jobs they wait for the next.
 ///
 /// On a machine that others use, a meeting waits for the system to let the other thread run, which takes longer than
-/// the work. A crew that has met this works the next jobs with its first thread alone, each time twice as many, and
-/// half as many again for each job that went well.
+/// the work. A crew that has met this works the next jobs with its first thread alone, each time twice as many; a job
+/// together that goes well halves that number.
 class Crew {
  public:
-  static constexpr int kLooks = 300'000;            ///< within a job: a few tenths of a millisecond
-  static constexpr int kLooksForAJob = 5'000'000;   ///< longer than what one thread does between two jobs
+  static constexpr int kLooks = 300'000;           ///< within a job: a few tenths of a millisecond
+  static constexpr int kLooksForAJob = 5'000'000;  ///< longer than what one thread does between two jobs
 
   explicit Crew(int threads, int looks = kLooks, int looks_for_a_job = kLooksForAJob)
       : threads_(threads), looks_(looks), looks_for_a_job_(looks_for_a_job) {

@@ -30,43 +30,32 @@ struct Parts {
 
 template <class Real>
 void take_contacts(const ContactSystem<Real>& system, std::size_t count, Parts& parts) {
-  std::vector<Real> velocity(2 * count), spin(count);
+  std::vector<Real> velocity, spin;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& m = system.motion(static_cast<std::int32_t>(i));
-    velocity[2 * i] = m.vx;
-    velocity[2 * i + 1] = m.vy;
-    spin[i] = m.u;
+    velocity.insert(velocity.end(), {m.vx, m.vy});
+    spin.push_back(m.u);
   }
   parts.add("grains/velocity", "m/s", "velocity of the centre", 2, Entity::grain, std::move(velocity));
   parts.add("grains/surface_speed", "m/s", "spin times radius, anticlockwise", 1, Entity::grain, std::move(spin));
 
-  std::vector<double> listed(2 * system.listed.size());
-  for (std::size_t i = 0; i < system.listed.size(); ++i) {
-    listed[2 * i] = system.listed[i].x;
-    listed[2 * i + 1] = system.listed[i].y;
-  }
+  std::vector<double> listed;
+  for (const base::Vec2& p : system.listed) listed.insert(listed.end(), {p.x, p.y});
   parts.add("list/position", "m", "places when the neighbour list was made", 2, Entity::grain, std::move(listed));
-  std::vector<std::int32_t> pair(2 * system.pair.size());
-  for (std::size_t p = 0; p < system.pair.size(); ++p) {
-    pair[2 * p] = system.pair[p].i;
-    pair[2 * p + 1] = system.pair[p].j;
-  }
+  std::vector<std::int32_t> pair;
+  for (const grains::Pair& p : system.pair) pair.insert(pair.end(), {p.i, p.j});
   parts.add("list/pair", "-", "pairs of the neighbour list", 2, Entity::contact, std::move(pair));
   parts.add("list/slot", "-", "lane of each pair", 1, Entity::contact, system.pair_slot);
 
   const auto& blocks = system.blocks;
-  const std::size_t lanes = blocks.block.size() * grains::kLanes;
-  std::vector<std::int32_t> bodies(2 * lanes), colour, wall;
-  std::vector<Real> mass(lanes), impulse(2 * lanes);
-  for (std::size_t k = 0; k < lanes; ++k) {
-    const auto& b = blocks.block[k / grains::kLanes];
-    const std::size_t lane = k % grains::kLanes;
-    bodies[2 * k] = b.i[lane];
-    bodies[2 * k + 1] = b.j[lane];
-    mass[k] = b.mass[lane];
-    impulse[2 * k] = b.pn[lane];
-    impulse[2 * k + 1] = b.pt[lane];
-  }
+  std::vector<std::int32_t> bodies, colour, wall;
+  std::vector<Real> mass, impulse;
+  for (const auto& b : blocks.block)
+    for (int lane = 0; lane < grains::kLanes; ++lane) {
+      bodies.insert(bodies.end(), {b.i[lane], b.j[lane]});
+      mass.push_back(b.mass[lane]);
+      impulse.insert(impulse.end(), {b.pn[lane], b.pt[lane]});
+    }
   for (const auto& c : blocks.colour) colour.insert(colour.end(), {c.first, c.first_wall, c.last});
   for (std::size_t k = 0; k < blocks.wall.size(); ++k)
     wall.insert(wall.end(), {blocks.wall_grain[k], static_cast<std::int32_t>(blocks.wall[k]), blocks.wall_slot[k]});
@@ -105,14 +94,12 @@ Parts take(const Simulation& sim) {
   const std::size_t count = sim.grains.count();
   parts.add("clock/step", "-", "steps done", 1, Entity::run, std::vector<std::int64_t>{sim.clock.step});
 
-  std::vector<double> position(2 * count), radius(count), origin(2 * count);
+  std::vector<double> position, radius, origin;
   for (std::size_t i = 0; i < count; ++i) {
     const grains::Disc& d = sim.grains.disc[i];
-    position[2 * i] = d.x;
-    position[2 * i + 1] = d.y;
-    radius[i] = d.radius;
-    origin[2 * i] = sim.origin[i].x;
-    origin[2 * i + 1] = sim.origin[i].y;
+    position.insert(position.end(), {d.x, d.y});
+    radius.push_back(d.radius);
+    origin.insert(origin.end(), {sim.origin[i].x, sim.origin[i].y});
   }
   parts.add("grains/id", "-", "name of the grain", 1, Entity::grain, sim.grains.id);
   parts.add("grains/position", "m", "place of the centre", 2, Entity::grain, std::move(position));

@@ -124,8 +124,8 @@ class PeerTable : public testing::Test {
     std::vector<std::string> lines;
     for (int k = 0; k < 4; ++k) {
       const auto add = [&](const std::string& code, const std::string& how, double force, const std::string& residual) {
-        lines.push_back(fmt::format("{},1234567,{},0.80{},conical,0.06,{},0.6,0.8,{:.10f},1,0.01,{},5,11596", code, k + 1, k,
-                                    how, force, residual));
+        lines.push_back(fmt::format("{},1234567,{},0.80{},conical,0.06,{},0.6,0.8,{:.10f},1,0.01,{},5,11596", code,
+                                    k + 1, k, how, force, residual));
       };
       add("ours", "10,,5e-05", ours[k], "0.001");
       add("nonsmooth", "200,,0.0001", sweeps_200[k], "0.0002");
