@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "solver/base/instruction_set.h"
 #include "solver/grains/contact_blocks.h"
 #include "solver/grains/grains.h"
 
@@ -88,15 +89,9 @@ struct ContactKernels {
                  Real friction, SolveSums* sums);
 };
 
-/// Instruction sets, from the least to the most demanding.
-enum class InstructionSet { generic, avx2, avx512 };
-
-/// True when this processor and this build have it.
-bool available(InstructionSet set);
-
-/// The fastest here. Zen 4 works through 512 bits in two halves: its 256-bit kernels take 12 % less time over a whole run
-/// (bench/README.md).
-InstructionSet fastest();
+using base::available;
+using base::fastest;
+using base::InstructionSet;
 
 /// Kernels of one instruction set; it must be available.
 template <class Real>

@@ -24,6 +24,8 @@ const std::vector<Room> kRooms = {
     {"solver/base/", {}},
     {"solver/grains/", {"solver/base/"}},
     {"solver/pile/", {"solver/base/"}},
+    {"solver/mesh/", {"solver/base/"}},
+    {"solver/fluid/", {"solver/base/", "solver/mesh/"}},
     {"solver/scene/", {"solver/base/", "*_spec.h"}},
     {"solver/simulation/", {"solver/base/", "solver/grains/", "solver/pile/", "solver/scene/"}},
 

@@ -1,0 +1,78 @@
+// One step in time of a flow on a moving mesh.
+//
+// The mesh has moved to its new place already, with one velocity w; boundary values and porosity are those of the new
+// time.
+//   first order     dv/dt = (v - v_n)/dt                          implicit Euler
+//   second order    dv/dt = (3 v - 4 v_n + v_n-1)/(2 dt)          BDF2; its first step is an Euler step
+// along the vertices. The same formula gives w and dphi/dt from places and porosities, so that they are consistent.
+//
+// The nonlinear equations R(U) = 0 are solved from the extrapolated state 2 U_n - U_n-1 by U <- U - A^-1 R(U), with the
+// LU factors of an earlier step's Jacobian A, and Anderson's acceleration, which for linear equations is GMRES with A
+// as its preconditioner (Walker, Ni 2011). No matrix is assembled but for a new factor:
+//   - when there is none, the rate of the scheme has changed, or the mesh is another one;
+//   - when the last step took more than kManyIterations;
+//   - when a step does not converge within kMostIterations: it begins again with a new one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/base/instruction_set.h"
+#include "solver/base/profile.h"
+#include "solver/fluid/flow.h"
+#include "solver/fluid/kept_factor.h"
+#include "solver/fluid/residual.h"
+
+namespace seapile::fluid {
+
+/// A time level that the scheme looks back to.
+struct TimeLevel {
+  std::vector<double> unknown;           ///< (3 vertices)
+  std::vector<base::Vec2> interstitial;  ///< v = u/phi [m/s], (vertices)
+  std::vector<base::Vec2> position;      ///< [m], (vertices)
+  std::vector<double> porosity;          ///< [-], (vertices)
+};
+
+/// The levels n, n-1 (newest first; at most two). All of one dt apart.
+struct Past {
+  std::vector<TimeLevel> level;
+  double dt = 0;  ///< [s]
+};
+
+enum class TimeOrder { first = 1, second = 2 };
+
+struct FlowSolver {
+  TimeOrder order = TimeOrder::second;
+  double tolerance = 1e-8;  ///< largest |R| by the size of its terms (see FlowReport) [-]
+  base::InstructionSet instructions = base::InstructionSet::generic;
+
+  KeptFactor factor;
+  double factor_rate = -1;  ///< rate of the scheme that the factor belongs to [1/s]
+  int last_iterations = 0;
+  std::int64_t refactorisations = 0;
+  PackedFlow packed;
+};
+
+inline constexpr int kManyIterations = 6, kMostIterations = 25;
+
+struct FlowReport {
+  bool converged = false;
+  int iterations = 0;
+  bool refactored = false;
+  /// |R|, mass rows weighted with (rho rate + mu/h^2) h, by (rho rate h^2 + mu) |u|; h^2 the mean area of a vertex [-].
+  double residual = 0;
+  std::string reason;  ///< one sentence when not converged
+};
+
+/// Remembers the flow as it is as the newest level. Forgets what was before when dt changes.
+void remember(Past& past, const Flow& flow, double dt);
+
+/// Derivatives in time at the new level, by the scheme that advance() will use, from the places and porosities of flow
+/// and past: sets flow.mesh_velocity and flow.porosity_rate.
+void set_rates(Flow& flow, const Past& past, TimeOrder order);
+
+/// Solves for the new level; `flow.unknown` holds the values that are held. On failure the unknowns are those given.
+FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile);
+
+}  // namespace seapile::fluid

@@ -1,0 +1,200 @@
+// Momentum and mass of a fluid between grains, on one triangle of a moving mesh: what the solver assembles.
+//
+//   rho phi (dv/dt + (v - w).grad v) = -phi grad p + div(mu phi (grad v + grad v^T)) - beta u + s      momentum
+//   dphi/dt + div u = 0,   u = phi v                                                                    mass
+//
+// with phi the porosity, v the interstitial and u the superficial velocity, w the velocity of the mesh, d/dt at a fixed
+// vertex (in the mass equation dphi/dt at a fixed place: dphi/dt - w.grad phi), p the pressure without the hydrostatic
+// one, beta a drag coefficient, s a source. It is the thesis' (5.1) and (5.2) (its div(u u / phi) is phi v.grad v with
+// the mass equation), where the grains' pressure force (1 - phi) grad p stands inside (docs/formulation.md), and the
+// viscous stress is mu phi (grad v + grad v^T), not doubled (a slip of the thesis: 2 mu phi d with d the full sum).
+//
+// Scheme: linear u and p on triangles. Galerkin terms, with v interpolated between its values u/phi at the vertices,
+// and
+//   PSPG   phi tau (grad q).R       makes equal orders stable             Tezduyar et al. 1992
+//   SUPG   rho phi tau ((v-w).grad w).R                                   Brooks, Hughes 1982
+//   LSIC   tau_L (div w)(dphi/dt + div u)                                 Tezduyar, Osawa 2000
+// with R the momentum residual, all terms of which are there that linear functions have. Natural boundary condition:
+// (-p I + mu phi (grad v + grad v^T)) n = t, the full traction.
+// Order: 2 in velocity, at least 1.5 in pressure (L2). tau belongs to the state before the iteration: it is not
+// differentiated. Axisymmetric: x is the axis, y the radius; every integral has the weight y, strain has v_y / y, and a
+// factor 2 pi is left out.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <type_traits>
+
+namespace seapile::fluid {
+
+enum class Geometry { planar, axisymmetric };
+
+/// The fluid. SI, or any consistent units.
+struct Properties {
+  double density = 1000;    ///< rho [kg/m3]; 0: creeping flow
+  double viscosity = 1e-3;  ///< mu [Pa s]
+  Geometry geometry = Geometry::planar;
+};
+
+/// What is known at a triangle's vertices when its velocities and pressures are asked for. Real is double, or a vector
+/// of doubles for as many triangles.
+template <class Real>
+struct ElementInput {
+  std::array<Real, 3> porosity;                      ///< phi [-]
+  std::array<Real, 3> porosity_rate;                 ///< dphi/dt at the (moving) vertex [1/s]
+  std::array<std::array<Real, 2>, 3> mesh_velocity;  ///< w [m/s]
+  std::array<std::array<Real, 2>, 3> history;        ///< dv/dt = rate v + history [m/s2]
+  std::array<std::array<Real, 2>, 3> source;         ///< s [N/m3]
+  std::array<Real, 3> drag;                          ///< beta [kg/m3/s]
+  double rate = 0;                                   ///< [1/s], of the time scheme; 0: steady
+};
+
+/// A triangle's unknowns: superficial velocity u [m/s] and pressure p [Pa], by vertex.
+inline constexpr int kUnknowns = 9;
+
+/// A number without its derivatives.
+inline double plain(double value) { return value; }
+template <class Dual>
+requires requires(const Dual& dual) { dual.value(); }
+auto plain(const Dual& dual) { return dual.value(); }
+inline double root(double value) { return std::sqrt(value); }
+inline double smaller(double a, double b) { return a < b ? a : b; }
+
+/// Scales of the stabilisation.
+template <class Real>
+struct Stabilisation {
+  Real tau;   ///< of the momentum residual [m3 s/kg]
+  Real lsic;  ///< tau_L [Pa s]
+};
+
+/// tau = 1/sqrt((2 rho phi rate)^2 + (2 rho phi |a|/h)^2 + (12 mu phi/h^2)^2 + (beta phi)^2), a = v - w, of Tezduyar's
+/// family; h is the diameter of the circle of equal area. tau_L = rho |a| h/2 min(Re/3, 1), Re = |a| h/(2 nu)
+/// (Tezduyar, Osawa 2000).
+template <class Real>
+Stabilisation<Real> stabilisation(const Properties& fluid, const Real& area, const Real& porosity, double rate,
+                                  const Real& relative_speed, const Real& drag) {
+  const Real h = root(area * (4 / std::numbers::pi)), inertia = fluid.density * porosity;
+  const Real in_time = 2 * rate * inertia, along = 2 * inertia * relative_speed / h,
+             across = 12 * fluid.viscosity * porosity / (h * h), resisted = drag * porosity;
+  const Real tau = 1 / root(in_time * in_time + along * along + across * across + resisted * resisted);
+  const Real momentum = fluid.density * relative_speed * h;
+  return {tau, 0.5 * momentum * smaller(momentum * (1 / (6 * fluid.viscosity)), Real(1.0))};
+}
+
+/// A point of a quadrature over triangles.
+struct QuadraturePoint {
+  std::array<double, 3> at;  ///< barycentric coordinates
+  double weight;             ///< of the area
+};
+/// Planar: exact to degree 2. Axisymmetric, where integrands have y or 1/y: exact to degree 4 (Strang and Fix 1973).
+std::span<const QuadraturePoint> quadrature(Geometry geometry);
+
+/// Residuals of a triangle's nine equations (momentum in x and y, mass; by vertex) [N/m, N/m, m2/s; times m when
+/// axisymmetric]. `x`, `y`: places of the vertices [m]; `u`: the unknowns. Scalar is Real, or a number with
+/// derivatives.
+template <class Real, class Scalar>
+std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const ElementInput<Real>& in,
+                                               const std::array<Scalar, 3>& x, const std::array<Scalar, 3>& y,
+                                               const std::array<Scalar, kUnknowns>& u) {
+  const double rho = fluid.density, mu = fluid.viscosity;
+  const bool axisymmetric = fluid.geometry == Geometry::axisymmetric;
+
+  // The gradients of the three linear functions, the same all over the triangle.
+  const Scalar doubled = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+  const Scalar inverse = 1 / doubled;
+  std::array<Scalar, 3> bx, by;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    bx[i] = (y[j] - y[k]) * inverse;
+    by[i] = (x[k] - x[j]) * inverse;
+  }
+  const auto slope = [&](const std::array<Scalar, 3>& b, const auto& f) {
+    return Scalar(b[0] * f(0) + b[1] * f(1) + b[2] * f(2));
+  };
+
+  // v = u/phi at the vertices.
+  std::array<Scalar, 3> vx, vy;
+  for (int i = 0; i < 3; ++i) {
+    const Real inverse_porosity = 1 / in.porosity[i];
+    vx[i] = u[3 * i] * inverse_porosity;
+    vy[i] = u[3 * i + 1] * inverse_porosity;
+  }
+  const auto at_vertex = [](const auto& values) {
+    return [&values](int i) -> const auto& { return values[i]; };
+  };
+  const auto unknown = [&](int c) { return [&u, c](int i) -> const Scalar& { return u[3 * i + c]; }; };
+  const Scalar divergence = slope(bx, unknown(0)) + slope(by, unknown(1));
+  const Scalar dvx_dx = slope(bx, at_vertex(vx)), dvx_dy = slope(by, at_vertex(vx)), dvy_dx = slope(bx, at_vertex(vy)),
+               dvy_dy = slope(by, at_vertex(vy)), dp_dx = slope(bx, unknown(2)), dp_dy = slope(by, unknown(2)),
+               dphi_dx = slope(bx, at_vertex(in.porosity)), dphi_dy = slope(by, at_vertex(in.porosity));
+
+  const Real third = Real(1.0 / 3);
+  const Real ax_mean = third * (plain(vx[0]) + plain(vx[1]) + plain(vx[2]) - in.mesh_velocity[0][0] -
+                                in.mesh_velocity[1][0] - in.mesh_velocity[2][0]);
+  const Real ay_mean = third * (plain(vy[0]) + plain(vy[1]) + plain(vy[2]) - in.mesh_velocity[0][1] -
+                                in.mesh_velocity[1][1] - in.mesh_velocity[2][1]);
+  const Stabilisation<Real> stable = stabilisation<Real>(
+      fluid, 0.5 * plain(doubled), third * (in.porosity[0] + in.porosity[1] + in.porosity[2]), in.rate,
+      root(ax_mean * ax_mean + ay_mean * ay_mean), third * (in.drag[0] + in.drag[1] + in.drag[2]));
+
+  std::array<Scalar, kUnknowns> residual;
+  residual.fill(0 * doubled);
+  for (const QuadraturePoint& point : quadrature(fluid.geometry)) {
+    const std::array<double, 3>& N = point.at;
+    const auto here = [&](const auto& f) {
+      return std::remove_cvref_t<decltype(f(0))>(N[0] * f(0) + N[1] * f(1) + N[2] * f(2));
+    };
+    const auto component = [](const auto& values, int c) {
+      return [&values, c ](int i) -> const auto& { return values[i][c]; };
+    };
+    const Real phi = here(at_vertex(in.porosity)), beta = here(at_vertex(in.drag));
+    const Real mesh_x = here(component(in.mesh_velocity, 0)), mesh_y = here(component(in.mesh_velocity, 1));
+    const Scalar ux = here(unknown(0)), uy = here(unknown(1)), p = here(unknown(2)), wx = here(at_vertex(vx)),
+                 wy = here(at_vertex(vy));
+    const Scalar ax = wx - mesh_x, ay = wy - mesh_y;
+    Scalar volume = (0.5 * point.weight) * doubled;
+
+    // Stress mu phi (grad v + grad v^T), and its divergence as far as linear functions have one.
+    const Real viscous = mu * phi;
+    const Scalar shear = dvx_dy + dvy_dx;
+    const Scalar txx = 2 * viscous * dvx_dx, tyy = 2 * viscous * dvy_dy, txy = viscous * shear;
+    Scalar div_x = mu * (2 * dphi_dx * dvx_dx + dphi_dy * shear), div_y = mu * (dphi_dx * shear + 2 * dphi_dy * dvy_dy);
+    Scalar continuity = here(at_vertex(in.porosity_rate)) - mesh_x * dphi_dx - mesh_y * dphi_dy + divergence;
+    Scalar inverse_r = 0 * doubled, hoop = 0 * doubled;
+    if (axisymmetric) {
+      const Scalar r = here(at_vertex(y));
+      volume = volume * r;
+      inverse_r = 1 / r;
+      hoop = 2 * viscous * wy * inverse_r;
+      continuity += uy * inverse_r;
+      div_x += txy * inverse_r;
+      div_y += (tyy - hoop) * inverse_r;
+    }
+
+    // The momentum residual R.
+    const Real inertia = rho * phi;
+    const Scalar past_x = inertia * (in.rate * wx + here(component(in.history, 0)) + ax * dvx_dx + ay * dvx_dy) +
+                          beta * ux - here(component(in.source, 0));
+    const Scalar past_y = inertia * (in.rate * wy + here(component(in.history, 1)) + ax * dvy_dx + ay * dvy_dy) +
+                          beta * uy - here(component(in.source, 1));
+    const Scalar Rx = stable.tau * (past_x + phi * dp_dx - div_x), Ry = stable.tau * (past_y + phi * dp_dy - div_y);
+
+    // (1 - phi) grad p is what the grains bear; the rest of grad p is integrated by parts, as the stress is.
+    const Scalar body_x = past_x - (1 - phi) * dp_dx, body_y = past_y - (1 - phi) * dp_dy;
+    const Scalar dilation = stable.lsic * continuity - p, sxx = txx + dilation, syy = tyy + dilation;
+    const Scalar along_x = inertia * ax, along_y = inertia * ay;
+    for (int i = 0; i < 3; ++i) {
+      const Scalar along = along_x * bx[i] + along_y * by[i];
+      residual[3 * i] += volume * (N[i] * body_x + sxx * bx[i] + txy * by[i] + along * Rx);
+      Scalar radial = N[i] * body_y + txy * bx[i] + syy * by[i] + along * Ry;
+      if (axisymmetric) radial += N[i] * inverse_r * (hoop + dilation);
+      residual[3 * i + 1] += volume * radial;
+      residual[3 * i + 2] += volume * (N[i] * continuity + phi * (bx[i] * Rx + by[i] * Ry));
+    }
+  }
+  return residual;
+}
+
+}  // namespace seapile::fluid

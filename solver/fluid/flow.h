@@ -1,0 +1,63 @@
+// A fluid on a mesh of triangles: its state, and what holds at its boundary.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/base/vec2.h"
+#include "solver/fluid/element.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace seapile::fluid {
+
+/// Component of a vertex's unknowns.
+enum Component { kVelocityX = 0, kVelocityY = 1, kPressure = 2 };
+
+/// An edge of the boundary on which a pressure acts from outside: traction -pressure n. The domain lies to its left.
+struct OpenEdge {
+  std::int32_t from = 0, to = 0;
+  std::array<double, 2> pressure{};  ///< at its ends, without the hydrostatic one of the fluid's density [Pa]
+};
+
+/// An edge along a wall on which the fluid slips against friction (Navier): tangential traction -friction (v - wall).
+struct SlipEdge {
+  std::int32_t from = 0, to = 0;
+  double friction = 0;  ///< mu / slip length [Pa s/m]
+  base::Vec2 wall;      ///< velocity of the wall [m/s]
+};
+
+/// The fluid. What a vertex does not hold is solved for; edges that are in no list are free of traction.
+struct Flow {
+  mesh::TriangleMesh mesh;
+  Properties fluid;
+  std::vector<double> unknown;     ///< superficial velocity u_x, u_y [m/s] and pressure p [Pa], by vertex, (3 vertices)
+  std::vector<std::uint8_t> held;  ///< 1: the unknown keeps its value (a boundary condition), (3 vertices)
+  std::vector<OpenEdge> open;
+  std::vector<SlipEdge> slip;
+  std::vector<double> porosity;           ///< phi [-], (vertices)
+  std::vector<double> porosity_rate;      ///< dphi/dt at the vertex [1/s], (vertices)
+  std::vector<base::Vec2> mesh_velocity;  ///< w [m/s], (vertices)
+  std::vector<base::Vec2> source;         ///< s [N/m3], (vertices)
+  std::vector<double> drag;               ///< beta [kg/m3/s], (vertices)
+
+  double& u(std::int32_t vertex, Component component) { return unknown[3 * vertex + component]; }
+  double u(std::int32_t vertex, Component component) const { return unknown[3 * vertex + component]; }
+};
+
+/// Fluid at rest on the mesh, pure (porosity 1), with nothing held.
+Flow at_rest(mesh::TriangleMesh mesh, const Properties& fluid);
+
+/// Keeps a vertex's velocity at the value given.
+void hold(Flow& flow, std::int32_t vertex, Component component, double value);
+
+/// How dv/dt is made of a velocity and those before it: rate v + history.
+struct TimeScheme {
+  double rate = 0;                  ///< [1/s]; 0: steady
+  std::vector<base::Vec2> history;  ///< [m/s2], (vertices); empty when steady
+};
+
+/// What a triangle's equations need of the flow.
+ElementInput<double> input_of(const Flow& flow, const TimeScheme& scheme, std::size_t triangle);
+
+}  // namespace seapile::fluid

@@ -1,0 +1,88 @@
+#include "solver/fluid/residual.h"
+
+#include <algorithm>
+
+#include "solver/fluid/boundary_terms.h"
+#include "solver/fluid/residual_kernels.h"
+
+namespace seapile::fluid {
+namespace {
+
+constexpr int kPadding = 8;  // triangles in the widest vector
+
+ResidualKernel kernel_of(base::InstructionSet set) {
+#if defined(SEAPILE_X86)
+  if (set == base::InstructionSet::avx512) return kResidualKernel_avx512;
+  if (set == base::InstructionSet::avx2) return kResidualKernel_avx2;
+#endif
+  (void)set;
+  return kResidualKernel_generic;
+}
+
+void add_boundary(const Flow& flow, std::span<const double> unknown, std::span<double> residual) {
+  const auto end = [&](std::int32_t v) {
+    return EdgeEnd<double>{flow.mesh.position[v].x, flow.mesh.position[v].y, unknown[3 * v], unknown[3 * v + 1]};
+  };
+  const auto add = [&](std::int32_t from, std::int32_t to, const EdgeForces<double>& force) {
+    for (int c = 0; c < 2; ++c) {
+      residual[3 * from + c] += force[0][c];
+      residual[3 * to + c] += force[1][c];
+    }
+  };
+  const Geometry geometry = flow.fluid.geometry;
+  for (const OpenEdge& e : flow.open)
+    add(e.from, e.to, pressure_force<double>(geometry, {end(e.from), end(e.to)}, e.pressure));
+  for (const SlipEdge& e : flow.slip)
+    add(e.from, e.to, slip_force<double>(geometry, {end(e.from), end(e.to)}, e.friction, e.wall));
+}
+
+void close(const Flow& flow, std::span<const double> unknown, std::span<double> residual) {
+  add_boundary(flow, unknown, residual);
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (flow.held[i]) residual[i] = 0;
+}
+
+}  // namespace
+
+void pack(PackedFlow& packed, const Flow& flow, const TimeScheme& scheme) {
+  const std::size_t vertices = flow.mesh.vertices(), triangles = flow.mesh.triangles();
+  packed.rate = scheme.rate;
+  packed.vertex.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const base::Vec2 history = scheme.history.empty() ? base::Vec2{} : scheme.history[v];
+    packed.vertex[v] = {flow.mesh.position[v].x, flow.mesh.position[v].y, flow.porosity[v], flow.porosity_rate[v],
+                        flow.mesh_velocity[v].x, flow.mesh_velocity[v].y, history.x,        history.y,
+                        flow.source[v].x,        flow.source[v].y,        flow.drag[v],     {}};
+  }
+  packed.triangles = static_cast<std::int32_t>(triangles);
+  packed.corner.resize(3 * ((triangles + kPadding - 1) / kPadding * kPadding));
+  for (std::size_t t = 0; 3 * t < packed.corner.size(); ++t)
+    for (int i = 0; i < 3; ++i) packed.corner[3 * t + i] = flow.mesh.triangle[std::min(t, triangles - 1)][i];
+}
+
+void residual_of(const Flow& flow, const PackedFlow& packed, std::span<const double> unknown,
+                 std::span<double> residual, base::InstructionSet instructions) {
+  std::ranges::fill(residual, 0.0);
+  kernel_of(instructions)(flow.fluid, packed, unknown.data(), residual.data());
+  close(flow, unknown, residual);
+}
+
+void residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const double> unknown,
+                 std::span<double> residual) {
+  std::ranges::fill(residual, 0.0);
+  for (std::size_t t = 0; t < flow.mesh.triangles(); ++t) {
+    const auto& vertex = flow.mesh.triangle[t];
+    std::array<double, 3> x, y;
+    std::array<double, kUnknowns> u;
+    for (int i = 0; i < 3; ++i) {
+      x[i] = flow.mesh.position[vertex[i]].x;
+      y[i] = flow.mesh.position[vertex[i]].y;
+      for (int c = 0; c < 3; ++c) u[3 * i + c] = unknown[3 * vertex[i] + c];
+    }
+    const auto part = element_residual(flow.fluid, input_of(flow, scheme, t), x, y, u);
+    for (int row = 0; row < kUnknowns; ++row) residual[3 * vertex[row / 3] + row % 3] += part[row];
+  }
+  close(flow, unknown, residual);
+}
+
+}  // namespace seapile::fluid

@@ -1,0 +1,26 @@
+// Unstructured meshes of polygons by Gmsh, graded by a size that is given as a function of place.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "solver/mesh/triangle_mesh.h"
+
+namespace seapile::mesh {
+
+/// A corner of the polygon and the tag of the side that leaves it.
+struct Corner {
+  base::Vec2 position;    ///< [m]
+  std::int32_t side = 0;  ///< tag of the edges from here to the next corner
+};
+
+/// Triangulates the polygon (counterclockwise, without holes) with edges of about size(x) [m]. The same polygon and
+/// sizes give the same mesh, bit for bit, on one installation of Gmsh. Not reentrant: Gmsh is one per process. Throws
+/// std::runtime_error with Gmsh's words when it cannot.
+TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size);
+
+/// Name and version of the mesher, for a run's provenance.
+std::string mesher();
+
+}  // namespace seapile::mesh
