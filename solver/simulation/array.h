@@ -9,7 +9,7 @@
 namespace seapile::simulation {
 
 /// What one row of an array belongs to.
-enum class Entity { run, grain, contact, cell };
+enum class Entity { run, grain, contact, cell, vertex, triangle, surface };
 
 /// What is said of an array wherever it goes: file, frame, comparison.
 struct ArrayInfo {
