@@ -11,7 +11,7 @@
 #include <string>
 
 #include "solver/fluid/flow.h"
-#include "solver/fluid/surface.h"
+#include "solver/fluid/free_surface.h"
 
 namespace seapile::fluid {
 
