@@ -20,7 +20,7 @@ struct Jet {
   FreeSurface surface;
 };
 
-/// A flat jet of fluid at rest, with its boundary values. Throws std::runtime_error when it cannot be meshed.
+/// A flat jet of fluid at rest, with its boundary values. Throws mesh::NoMesh.
 Jet flat_jet(const JetSpec& spec);
 
 /// Velocity of developed flow in the die [U].

@@ -90,9 +90,9 @@ TriangleMesh generate(std::span<const Corner> polygon, const std::function<doubl
   try {
     mesh = generated(polygon, size);
   } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("mesh: Gmsh could not mesh the domain: ") + error.what());
+    throw NoMesh(std::string("mesh: Gmsh could not mesh the domain: ") + error.what());
   } catch (...) {
-    throw std::runtime_error("mesh: Gmsh could not mesh the domain");
+    throw NoMesh("mesh: Gmsh could not mesh the domain");
   }
   check(mesh);
   return mesh;

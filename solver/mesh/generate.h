@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "solver/mesh/triangle_mesh.h"
@@ -13,6 +14,11 @@ namespace seapile::mesh {
 struct Corner {
   base::Vec2 position;    ///< [m]
   std::int32_t side = 0;  ///< tag of the edges from here to the next corner
+};
+
+/// Gmsh could not mesh a domain.
+struct NoMesh : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Triangulates the polygon (counterclockwise, without holes) with edges of about size(x) [m]. The same polygon and

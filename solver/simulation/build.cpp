@@ -14,15 +14,7 @@ namespace seapile::simulation {
 namespace {
 
 grains::Team team_of(const Execution& execution) {
-  using grains::InstructionSet;
-  InstructionSet set = grains::fastest();
-  switch (execution.simd) {
-    case Simd::best: break;
-    case Simd::generic: set = InstructionSet::generic; break;
-    case Simd::avx2: set = InstructionSet::avx2; break;
-    case Simd::avx512: set = InstructionSet::avx512; break;
-  }
-  return {execution.threads > 1 ? std::make_shared<base::Crew>(execution.threads) : nullptr, set};
+  return {execution.threads > 1 ? std::make_shared<base::Crew>(execution.threads) : nullptr, instructions_of(execution.simd)};
 }
 
 grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& contact) {
@@ -127,11 +119,21 @@ std::vector<Array> arrays_of(const grains::Grains& grains) {
           {{"grains/radius", "m", "radius", 1, Entity::grain}, std::move(radius)}};
 }
 
+base::InstructionSet instructions_of(Simd simd) {
+  switch (simd) {
+    case Simd::best: break;
+    case Simd::generic: return base::InstructionSet::generic;
+    case Simd::avx2: return base::InstructionSet::avx2;
+    case Simd::avx512: return base::InstructionSet::avx512;
+  }
+  return base::fastest();
+}
+
 const char* simd_in_use(Simd simd) {
-  switch (team_of({1, simd}).instructions) {
-    case grains::InstructionSet::avx2: return "avx2";
-    case grains::InstructionSet::avx512: return "avx512";
-    case grains::InstructionSet::generic: break;
+  switch (instructions_of(simd)) {
+    case base::InstructionSet::avx2: return "avx2";
+    case base::InstructionSet::avx512: return "avx512";
+    case base::InstructionSet::generic: break;
   }
   return "generic";
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "solver/base/instruction_set.h"
+
 namespace seapile::simulation {
 
 /// Instructions used by the contact kernels. All give the same bits.
@@ -11,7 +13,9 @@ struct Execution {
   Simd simd = Simd::best;
 };
 
-/// The instructions that `simd` means on this machine: "generic", "avx2" or "avx512".
+/// The instructions that `simd` means on this machine.
+base::InstructionSet instructions_of(Simd simd);
+/// Their name: "generic", "avx2" or "avx512".
 const char* simd_in_use(Simd simd);
 
 }  // namespace seapile::simulation

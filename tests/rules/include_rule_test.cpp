@@ -27,7 +27,8 @@ const std::vector<Room> kRooms = {
     {"solver/mesh/", {"solver/base/"}},
     {"solver/fluid/", {"solver/base/", "solver/mesh/"}},
     {"solver/scene/", {"solver/base/", "*_spec.h"}},
-    {"solver/simulation/", {"solver/base/", "solver/grains/", "solver/pile/", "solver/scene/"}},
+    {"solver/simulation/",
+     {"solver/base/", "solver/fluid/", "solver/grains/", "solver/mesh/", "solver/pile/", "solver/scene/"}},
 
     {"runner/study/", {"solver/base/", "solver/scene/", "*_spec.h", "solver/simulation/array.h"}},
     {"runner/store/",
