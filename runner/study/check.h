@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "runner/study/unit.h"
 #include "solver/base/problem.h"
 
 namespace seapile::study {
@@ -16,9 +15,10 @@ struct CheckText;
 
 /// A published value, and the cases that it is of.
 struct Reference {
-  Quantity value, tolerance;  ///< as written; the tolerance is positive and of the same kind
-  std::string reason;         ///< of the tolerance
-  std::string place;          ///< where it is written, for messages: "\"reference/tip.csv\" line 3"; "" in the study
+  double value = 0, tolerance = 0;  ///< as written; the tolerance is positive
+  std::string unit;                 ///< of both; "": the metric's own
+  std::string reason;               ///< of the tolerance
+  std::string place;  ///< where it is written, for messages: "\"reference/tip.csv\" line 3"; "" in the study
   std::vector<std::size_t> cases;  ///< of the study, by index
 };
 

@@ -5,6 +5,7 @@
 #include "runner/study/check.h"
 #include "runner/study/csv.h"
 #include "runner/study/field_reader.h"
+#include "runner/study/unit.h"
 
 namespace seapile::study {
 namespace {
@@ -84,20 +85,34 @@ class EntryReader {
       if (const Value* file = member("reference")) read_words(*file, text_.file, problems_);
       return;
     }
-    if (const Value* value = member("value")) read_any_quantity(*value, "a number", text_.value, problems_);
     if (const Value* source = member("source")) read_words(*source, text_.source, problems_);
-    if (const Value* tolerance = member("tolerance")) read_tolerance(*tolerance);
+    const Value *value = member("value"), *tolerance = member("tolerance");
+    if (value && tolerance) read_value(*value, *tolerance);
   }
 
-  void read_tolerance(const Value& tolerance) {
+  void read_value(const Value& value, const Value& tolerance) {
+    constexpr const char* kAnyNumber = "a number, in SI units or with its unit";
+    constexpr const char* kPositive = "a number, more than 0, with the unit that the value has";
     const std::size_t before = problems_.size();
-    read_any_quantity(tolerance, "a number, more than 0", text_.tolerance, problems_);
-    if (problems_.size() == before && !(text_.tolerance.value > 0))
-      report(tolerance.place, fmt::format("{} is out of range", number_text(text_.tolerance.value)),
-             "a number, more than 0");
-    const std::string &unit = text_.value.unit, &other = text_.tolerance.unit;
-    if (!unit.empty() && !other.empty() && !same_kind(unit, other))
-      report(tolerance.place, fmt::format("is in {}, but the value in {}", other, unit), "a unit of the value's kind");
+    Quantity number, width;
+    read_any_quantity(value, kAnyNumber, number, problems_);
+    read_any_quantity(tolerance, kPositive, width, problems_);
+    if (problems_.size() > before) return;
+    text_.value = number.value;
+    text_.unit = number.unit;
+    if (number.unit.empty() != width.unit.empty()) {
+      report(tolerance.place,
+             width.unit.empty() ? "has no unit, but the value has one" : "has a unit, but the value has none",
+             kPositive);
+      return;
+    }
+    const UnitResult in_unit = convert(width, number.unit);
+    text_.tolerance = in_unit.value;
+    if (!in_unit.problem.empty()) {
+      report(tolerance.place, in_unit.problem, kPositive);
+    } else if (!(text_.tolerance > 0)) {
+      report(tolerance.place, fmt::format("{} is out of range", number_text(width.value)), kPositive);
+    }
   }
 
   const Value& entry_;

@@ -7,16 +7,16 @@
 
 #include "runner/study/assignment.h"
 #include "runner/study/json_value.h"
-#include "runner/study/unit.h"
 
 namespace seapile::study {
 
 struct CheckText {
   PlacePtr place;
   std::string metric;
-  std::string file;            ///< "reference/tip.csv"; "": the value stands in the study
-  Quantity value, tolerance;   ///< in the study
-  std::string source;          ///< in the study
+  std::string file;  ///< "reference/tip.csv"; "": the value stands in the study
+  double value = 0, tolerance = 0;
+  std::string unit;  ///< of both; "": the metric's own
+  std::string source;
   std::optional<Match> which;  ///< limits the cases
   double drift = 0;
 };

@@ -8,6 +8,7 @@
 #include "runner/study/csv.h"
 #include "runner/study/nearest.h"
 #include "runner/study/text_file.h"
+#include "runner/study/unit.h"
 
 namespace seapile::study {
 namespace {
@@ -80,13 +81,13 @@ class FileReader {
   }
 
   bool read_metric(std::size_t line, const Heading& heading) {
-    unit_ = heading.unit;
+    file_.unit = heading.unit;
     if (heading.name != metric_) {
       refuse(line, fmt::format("\"{}\" is not the metric of the check", heading.name.substr(0, 60)),
              metric_ + " [unit]");
-    } else if (unit_.empty()) {
+    } else if (file_.unit.empty()) {
       refuse(line, metric_ + " has no unit", fmt::format("{0} [Pa], or {0} [-] for a plain number", metric_));
-    } else if (const UnitResult known = check_unit(unit_); !known.problem.empty()) {
+    } else if (const UnitResult known = check_unit(file_.unit); !known.problem.empty()) {
       refuse(line, fmt::format("{} {}", metric_, known.problem), "a unit such as Pa, kPa, N/m, m/s, -", known.nearest);
     } else {
       return true;
@@ -112,7 +113,7 @@ class FileReader {
       const std::string allowed = fmt::format("{} [{}]", heading.name, unit);
       const UnitResult in_unit = read_quantity("1 " + heading.unit, unit);
       if (!in_unit.problem.empty()) {
-        refuse(line, fmt::format("{}: the unit \"{}\" {}", heading.name, heading.unit, in_unit.problem), allowed);
+        refuse(line, fmt::format("{} {}", heading.name, in_unit.problem), allowed);
         return false;
       }
     }
@@ -138,7 +139,7 @@ class FileReader {
     row.reason = record.fields[n - 1];
     good &= read_number(record, n - 3, metric_, row.value);
     good &= read_number(record, n - 2, "tolerance", row.tolerance);
-    if (good && !(row.tolerance.value > 0)) {
+    if (good && !(row.tolerance > 0)) {
       refuse(record.line, fmt::format("tolerance {} is out of range", record.fields[n - 2]), "more than 0");
       good = false;
     }
@@ -156,17 +157,17 @@ class FileReader {
     file_.rows.push_back(std::move(row));
   }
 
-  bool read_number(const CsvRecord& record, std::size_t column, const std::string& what, Quantity& quantity) {
+  bool read_number(const CsvRecord& record, std::size_t column, const std::string& what, double& quantity) {
     const std::string& field = record.fields[column];
     if (const auto number = csv_number<double>(field)) {
-      quantity = {*number, unit_};
+      quantity = *number;
       return true;
     }
-    refuse(
-        record.line,
-        field.empty() ? fmt::format("has no {}", what)
-                      : fmt::format("{} \"{}\" is no finite number", what, field.substr(0, 40)),
-        what == "tolerance" ? fmt::format("a number in {}, more than 0", unit_) : fmt::format("a number in {}", unit_));
+    refuse(record.line,
+           field.empty() ? fmt::format("has no {}", what)
+                         : fmt::format("{} \"{}\" is no finite number", what, field.substr(0, 40)),
+           what == "tolerance" ? fmt::format("a number in {}, more than 0", file_.unit)
+                               : fmt::format("a number in {}", file_.unit));
     return false;
   }
 
@@ -198,7 +199,6 @@ class FileReader {
   const std::string& metric_;
   LineProblems problems_;
   ReferenceFile file_;
-  std::string unit_;
   std::vector<PathColumn> paths_;
 };
 

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "runner/study/assignment.h"
-#include "runner/study/unit.h"
 
 namespace seapile::study {
 
 struct ReferenceRow {
   std::size_t line = 0;
-  Match which;  ///< what a case must have
-  Quantity value, tolerance;
+  Match which;                      ///< what a case must have
+  double value = 0, tolerance = 0;  ///< in the file's unit
   std::string reason;
 };
 
 struct ReferenceFile {
   std::string source;
+  std::string unit;  ///< of every value and tolerance
   std::vector<ReferenceRow> rows;
 };
 

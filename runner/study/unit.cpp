@@ -212,11 +212,6 @@ UnitResult check_unit(std::string_view unit) {
           near.empty() ? "" : replaced(std::string(unit), text.unknown, near)};
 }
 
-bool same_kind(std::string_view a, std::string_view b) {
-  const auto unit_a = read_unit(a).unit, unit_b = read_unit(b).unit;
-  return unit_a && unit_b && unit_a->same_dimension(*unit_b);
-}
-
 UnitResult read_quantity(std::string_view text, Quantity& quantity) {
   text = stripped(text);
   std::size_t exponent_at = 0;
@@ -240,7 +235,7 @@ UnitResult convert(const Quantity& quantity, std::string_view unit) {
 }
 
 UnitResult read_quantity(std::string_view text, std::string_view unit) {
-  const Unit target = read_unit(unit).unit.value();  // A field list's unit that is none is our bug.
+  const Unit target = read_unit(unit).unit.value();  // A unit of ours that is none is our bug.
   text = stripped(text);
 
   std::size_t exponent_at = 0;
@@ -265,7 +260,7 @@ UnitResult read_quantity(std::string_view text, std::string_view unit) {
   }
 
   const std::string mantissa = number.substr(0, exponent_at);
-  long exponent = source.unit->decimal;
+  long exponent = source.unit->decimal - target.decimal;
   if (exponent_at < length) {
     const std::string written = number.substr(exponent_at + 1);
     if (written.size() > 5) return {0, "overflows or is too small", ""};
@@ -275,6 +270,7 @@ UnitResult read_quantity(std::string_view text, std::string_view unit) {
   double value = 0;
   const auto parsed = std::from_chars(shifted.data(), shifted.data() + shifted.size(), value);
   value = value * source.unit->numerator / source.unit->denominator;
+  value = value * target.denominator / target.numerator;
   const bool zero = mantissa.find_first_of("123456789") == std::string::npos;
   if (parsed.ec != std::errc() || !std::isfinite(value) || (value == 0 && !zero)) {
     return {0, "overflows or is too small", ""};

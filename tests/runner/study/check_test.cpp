@@ -61,12 +61,14 @@ TEST_F(Checks, ADefaultIsAValueOfTheSceneToo) {
 
 TEST_F(Checks, AValueInTheStudyIsOfEveryCaseOrOfThoseOfItsCondition) {
   const auto found = checks(R"([
-    {"metric": "q_c", "value": "44.3 kPa", "tolerance": 1500, "source": "hand", "drift": 1e-3},
-    {"metric": "q_c", "value": 44300, "tolerance": "1.5 kPa", "source": "hand", "if": {"pile.tip": "flat", "bed.seed": 2}}])");
+    {"metric": "q_c", "value": "44.3 kPa", "tolerance": "1500 Pa", "source": "hand", "drift": 1e-3},
+    {"metric": "q_c", "value": 44300, "tolerance": 1500, "source": "hand", "if": {"pile.tip": "flat", "bed.seed": 2}}])");
   EXPECT_EQ(found[0].references[0].cases.size(), 8u);
-  EXPECT_EQ(found[0].references[0].value.value, 44.3);
-  EXPECT_EQ(found[0].references[0].value.unit, "kPa");
-  EXPECT_EQ(found[0].references[0].tolerance.unit, "");
+  EXPECT_EQ(found[0].references[0].value, 44.3);
+  EXPECT_EQ(found[0].references[0].unit, "kPa");
+  EXPECT_EQ(found[0].references[0].tolerance, 1.5);
+  EXPECT_EQ(found[1].references[0].tolerance, 1500);
+  EXPECT_EQ(found[1].references[0].unit, "");
   EXPECT_EQ(found[0].source, "hand");
   EXPECT_EQ(found[0].drift, 1e-3);
   EXPECT_THAT(found[1].references[0].cases, ElementsAre(1, 3));

@@ -37,10 +37,9 @@ TEST(ReferenceFileText, ARowIsASourceConditionsAValueAToleranceAndItsReason) {
   ASSERT_EQ(file.rows.size(), 1u);
   const ReferenceRow& row = file.rows[0];
   EXPECT_EQ(row.line, 3u);
-  EXPECT_EQ(row.value.value, 44.3);
-  EXPECT_EQ(row.value.unit, "kPa");
-  EXPECT_EQ(row.tolerance.value, 1.5);
-  EXPECT_EQ(row.tolerance.unit, "kPa");
+  EXPECT_EQ(row.value, 44.3);
+  EXPECT_EQ(file.unit, "kPa");
+  EXPECT_EQ(row.tolerance, 1.5);
   EXPECT_EQ(row.reason, "read off a figure, twice");
   EXPECT_EQ(row.which.conditions, (std::vector<std::pair<std::string, Resolved>>{
                                       {"pile.tip", std::string("flat")}, {"pile.driving.constant.speed", 0.06}}));
