@@ -35,7 +35,7 @@ int check(const CheckArguments& arguments) {
   const study::Study study = study::read(arguments.study, arguments.options);
   const CheckedCases cases(study, arguments.root);
   if (cases.watched().empty()) {
-    fmt::print(stderr, "{} has no check of any of these cases\n", study.name);
+    fmt::print(stderr, "{} has no {}\n", study.name, study.checks.empty() ? "checks" : "check of any of these cases");
     return execute::kNothingMatched;
   }
   if (arguments.accept) return accept_values(study, cases, *arguments.accept, arguments.note);
@@ -71,9 +71,9 @@ void add_check(CLI::App& app, Call& call) {
       "value has moved since it was accepted. Exit code 3: a check failed; 4: none, but results are missing or too "
       "few.\n\n"
       "Examples:\n"
-      "  runner check studies/tip_shape.json\n"
-      "  runner check studies/tip_shape.json --seeds 5 --format csv\n"
-      "  runner check studies/tip_shape.json --accept 1a2b3c4d5e --note \"grains 4: rebounds are no longer lost\"");
+      "  runner check my_study.json\n"
+      "  runner check my_study.json --seeds 5 --format csv\n"
+      "  runner check my_study.json --accept 1a2b3c4d5e --note \"grains 4: rebounds are no longer lost\"");
   command->callback([&call] { call = [] { return check(arguments); }; });
 }
 

@@ -111,6 +111,20 @@ TEST_F(Checks, NullAndAnEmptyListAskForNothing) {
   EXPECT_THAT(checks("[]"), IsEmpty());
 }
 
+TEST_F(Checks, TheExamplesOfTheDocumentationAreRead) {
+  std::ifstream file(SEAPILE_SOURCE_DIR "/docs/study.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  const auto block = [&](const std::string& start) {
+    const std::size_t from = page.find(start);
+    return from == std::string::npos ? "" : page.substr(from, page.find("```", from) - from);
+  };
+  write("reference/tip.csv", block("# source:"));
+  const auto found = study(kEight + ", " + block("\"checks\": [")).checks;
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].references.size(), 2u);
+  EXPECT_THAT(found[1].references[0].cases, ElementsAre(4, 5, 6, 7));
+}
+
 TEST_F(Checks, ChangeNoIdentity) {
   reference("conical,0.06,44.3,1,read off\n");
   const Study without = study(kEight);
