@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "runner/present/table.h"
 #include "runner/store/catalogue.h"
+#include "runner/study/study.h"
 
 namespace seapile::commands {
 
@@ -20,6 +22,7 @@ void add_query(CLI::App& app, Call& call);
 void add_curve(CLI::App& app, Call& call);
 void add_figure(CLI::App& app, Call& call);
 void add_trend(CLI::App& app, Call& call);
+void add_check(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);
@@ -35,6 +38,12 @@ void add_store_option(CLI::App& command, std::string& root);
 
 /// Adds `--where`, conditions that all have to hold.
 void add_where_option(CLI::App& command, std::vector<std::string>& where);
+
+/// Adds `--set` and `--seeds`, what the command line changes in a study.
+void add_study_options(CLI::App& command, study::Options& options);
+
+/// Adds `--format`.
+void add_format_option(CLI::App& command, present::Format& format);
 
 /// What `query`, `curve` and `trend` are limited to: the name of a study, or a study file, or "" for everything.
 std::string study_name(const std::string& study);

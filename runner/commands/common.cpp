@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "runner/commands/command.h"
-#include "runner/study/study.h"
 
 namespace seapile::commands {
 
@@ -18,6 +18,23 @@ void add_where_option(CLI::App& command, std::vector<std::string>& where) {
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);
+}
+
+void add_study_options(CLI::App& command, study::Options& options) {
+  command.add_option("--set", options.set, "Change the base scene or the record, e.g. pile.depth=0.3")
+      ->type_name("PATH=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  command.add_option("--seeds", options.seeds, "Repeat every case on N packings: bed.seed = 1..N")->type_name("N");
+}
+
+void add_format_option(CLI::App& command, present::Format& format) {
+  const std::map<std::string, present::Format> formats = {
+      {"table", present::Format::table}, {"csv", present::Format::csv}, {"json", present::Format::json}};
+  command.add_option("--format", format, "table, csv or json")
+      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->type_name("FORMAT");
 }
 
 std::string study_name(const std::string& study) {

@@ -23,6 +23,7 @@ constexpr const char* kExamples =
     "  runner curve tip_shape --out curves.csv\n"
     "  runner figure forces 1a2b3c4d5e --depth 0.6 -o forces.svg\n"
     "  runner trend density --of tip_resistance_mean --against bed:solid_fraction -o density.svg\n"
+    "  runner check my_study.json                        compare with published and with accepted values\n"
     "  runner show 1a2b3c4d5e\n";
 
 /// `runner STUDY` means `runner run STUDY`.
@@ -49,6 +50,7 @@ int run_program(int count, char** arguments) {
   commands::add_curve(app, call);
   commands::add_figure(app, call);
   commands::add_trend(app, call);
+  commands::add_check(app, call);
   commands::add_show(app, call);
   commands::add_verify(app, call);
   commands::add_reindex(app, call);

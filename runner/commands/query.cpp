@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
@@ -54,11 +53,7 @@ void add_query(CLI::App& app, Call& call) {
                    "Parameters or metrics (bed:NAME: of the bed) to list instead of the headline ones")
       ->type_name("NAME,...")
       ->delimiter(',');
-  const std::map<std::string, present::Format> formats = {
-      {"table", present::Format::table}, {"csv", present::Format::csv}, {"json", present::Format::json}};
-  command->add_option("--format", arguments.format, "table, csv or json")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
-      ->type_name("FORMAT");
+  add_format_option(*command, arguments.format);
   command->add_flag("--each", arguments.each, "One row per run, also where a study has replicates");
   add_store_option(*command, arguments.root);
   command->footer(

@@ -62,13 +62,7 @@ void add_run(CLI::App& app, Call& call) {
   execute::CampaignOptions& campaign = arguments.campaign;
   CLI::App* command = app.add_subcommand("run", "Run what a study lacks, and show its results");
   command->add_option("STUDY", arguments.study, "Study file")->required();
-  command->add_option("--set", arguments.options.set, "Change the base scene or the record, e.g. pile.depth=0.3")
-      ->type_name("PATH=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
-  command->add_option("--seeds", arguments.options.seeds, "Repeat every case on N packings: bed.seed = 1..N")
-      ->type_name("N");
+  add_study_options(*command, arguments.options);
   command->add_option("-j,--jobs", campaign.sharing.jobs, "Cases at a time; default: the cores are shared out")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/trend_figure.h"
@@ -69,11 +67,7 @@ void add_trend(CLI::App& app, Call& call) {
       ->type_name("0.5..0.9999");
   command->add_option("-o,--out", arguments.out, "Picture to draw as well")->type_name("FILE.svg");
   add_where_option(*command, arguments.where);
-  const std::map<std::string, present::Format> formats = {
-      {"table", present::Format::table}, {"csv", present::Format::csv}, {"json", present::Format::json}};
-  command->add_option("--format", arguments.format, "table, csv or json")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
-      ->type_name("FORMAT");
+  add_format_option(*command, arguments.format);
   add_store_option(*command, arguments.root);
   command->footer(
       "Examples:\n"

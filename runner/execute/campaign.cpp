@@ -69,18 +69,12 @@ std::vector<CaseOutcome> Campaign::outcomes() const {
     const State state = states.at(c.id);
     CaseOutcome outcome{c.id, c.labels, word(state), {}, {}};
     if (state == State::fresh || state == State::completed || state == State::diverged) {
-      outcome.run_folder = newest_run(c.id);
-      outcome.bed_folder = newest_run(c.bed_id);
+      outcome.run_folder = store::newest_run(options_.root, c.id);
+      outcome.bed_folder = store::newest_run(options_.root, c.bed_id);
     }
     outcomes.push_back(std::move(outcome));
   }
   return outcomes;
-}
-
-fs::path Campaign::newest_run(const std::string& case_id) const {
-  const fs::path folder = store::case_folder(options_.root, case_id);
-  const auto runs = fs::is_directory(folder) ? store::complete_runs(folder) : std::vector<std::string>{};
-  return runs.empty() ? fs::path() : folder / runs.back();
 }
 
 /// Tells the catalogue of the study, and of finished runs that it has missed.
@@ -98,7 +92,7 @@ void Campaign::announce() const {
 
 void Campaign::ingest(const std::string& case_id) {
   try {
-    store::Catalogue::open(options_.root).ingest(newest_run(case_id));
+    store::Catalogue::open(options_.root).ingest(store::newest_run(options_.root, case_id));
   } catch (const store::StoreError& error) {
     if (ingest_trouble_.empty()) ingest_trouble_ = error.what();
   }
@@ -120,7 +114,7 @@ Request Campaign::request_for(const Task& task) const {
     request.kind = "drive";
     request.canonical = c.canonical;
     request.bed_id = c.bed_id;
-    request.bed_run = newest_run(c.bed_id).filename().string();
+    request.bed_run = store::newest_run(options_.root, c.bed_id).filename().string();
   }
   return request;
 }

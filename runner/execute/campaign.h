@@ -44,7 +44,6 @@ class Campaign {
   std::vector<CaseOutcome> outcomes() const;
 
  private:
-  std::filesystem::path newest_run(const std::string& case_id) const;
   void announce() const;
   void ingest(const std::string& case_id);
   Request request_for(const Task& task) const;

@@ -246,6 +246,17 @@ void read_quantities(Table& table, std::size_t column) {
   for (const auto& [row, value] : numbers) table.rows[row][column] = value;
 }
 
+void align_right(Table& table, std::size_t column) {
+  std::size_t most = width(table.columns[column]);
+  const auto texts = [&](auto&& each) {
+    for (auto& row : table.rows) {
+      if (auto* words = std::get_if<std::string>(&row[column])) each(*words);
+    }
+  };
+  texts([&](std::string& words) { most = std::max(most, width(words)); });
+  texts([&](std::string& words) { words = aligned(words, most, true); });
+}
+
 std::optional<std::pair<double, std::string>> quantity(const std::string& text) {
   double value = 0;
   const char* const end = text.data() + text.size();

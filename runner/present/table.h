@@ -34,6 +34,9 @@ store::Table label_table(const std::vector<Labels>& cases);
 /// Makes a column of texts that are all numbers with one unit a column of numbers in that unit; else does nothing.
 void read_quantities(store::Table& table, std::size_t column);
 
+/// Puts blanks before the texts of a column so that they end together: for texts that show numbers.
+void align_right(store::Table& table, std::size_t column);
+
 /// "0.06 m/s" as 0.06 and "m/s"; absent when the text does not begin with a number or goes on otherwise.
 std::optional<std::pair<double, std::string>> quantity(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "runner/store/run_folder.h"
 
 namespace seapile::store {
+
+/// Before the name of what a drive's bed is known by: "bed:solid_fraction". No path of a parameter has a colon.
+inline constexpr std::string_view kOfBed = "bed:";
 
 /// One cell of a query's answer: absent, number, or text.
 using Cell = std::variant<std::monostate, double, std::string>;

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
-#include <string_view>
 
 #include "runner/store/condition.h"
 #include "runner/store/ingest.h"
@@ -19,8 +18,6 @@ namespace {
 /// How many metrics a table shows when none are asked for: the solver lists its headline ones first.
 constexpr std::size_t kDefaultMetrics = 6;
 
-/// Before the name of what a drive's bed is known by. No path of a parameter has a colon.
-constexpr std::string_view kOfBed = "bed:";
 constexpr const char* kBedCase = "bed:case";
 
 using Texts = std::vector<std::string>;

@@ -109,6 +109,12 @@ std::vector<std::string> complete_runs(const Path& case_folder) {
   return runs;
 }
 
+Path newest_run(const Path& root, const std::string& case_id) {
+  const Path folder = case_folder(root, case_id);
+  const std::vector<std::string> runs = complete_runs(folder);
+  return runs.empty() ? Path() : folder / runs.back();
+}
+
 std::string next_run(const Path& case_folder, bool resume) {
   const std::vector<std::string> runs = all_runs(case_folder);
   if (runs.empty()) return "0001";

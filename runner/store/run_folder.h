@@ -123,6 +123,9 @@ std::filesystem::path case_folder(const std::filesystem::path& root, const std::
 /// The runs of a case that have a manifest, newest last.
 std::vector<std::string> complete_runs(const std::filesystem::path& case_folder);
 
+/// The newest of them, as a path; empty when there is none.
+std::filesystem::path newest_run(const std::filesystem::path& root, const std::string& case_id);
+
 /// The number that a new run gets: that of the newest folder when it has no manifest (to be resumed) and `resume`, else
 /// a new one.
 std::string next_run(const std::filesystem::path& case_folder, bool resume);

@@ -83,17 +83,19 @@ std::vector<Assignment> read_assignments(const Value& object, Problems& problems
   return assignments;
 }
 
+void add_conditions(const Assignment& assignment, Match& match, Problems& problems) {
+  const ResolvedScene resolved = resolve_all(check_value(assignment.path, assignment.value, problems));
+  for (const std::string& path : written_paths(assignment.value, join_path(assignment.path))) {
+    if (const auto found = resolved.find(path); found != resolved.end()) match.conditions.emplace_back(*found);
+  }
+}
+
 Match read_match(const Value& object, Problems& problems) {
   Match match{object.place, {}};
   if (object.kind == Value::Kind::object && object.items.empty()) {
     problems.push_back({pointer(object.place), "is empty: it would match every case", "at least one path", ""});
   }
-  for (const Assignment& assignment : read_assignments(object, problems)) {
-    const ResolvedScene resolved = resolve_all(check_value(assignment.path, assignment.value, problems));
-    for (const std::string& path : written_paths(assignment.value, join_path(assignment.path))) {
-      if (const auto found = resolved.find(path); found != resolved.end()) match.conditions.emplace_back(*found);
-    }
-  }
+  for (const Assignment& assignment : read_assignments(object, problems)) add_conditions(assignment, match, problems);
   return match;
 }
 

@@ -38,6 +38,9 @@ scene::SceneSpec check_value(const Path& path, const Value& value, base::Problem
 /// The members of an object of dotted paths of the scene. Unknown paths are reported, values not yet looked at.
 std::vector<Assignment> read_assignments(const Value& object, base::Problems& problems);
 
+/// Makes a match hold only where a path has a value.
+void add_conditions(const Assignment& assignment, Match& match, base::Problems& problems);
+
 /// An object of dotted paths and the values they must have.
 Match read_match(const Value& object, base::Problems& problems);
 

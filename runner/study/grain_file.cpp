@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "runner/study/csv.h"
 #include "runner/study/problem_text.h"
 #include "runner/study/sha256.h"
 #include "runner/study/study.h"
@@ -20,28 +21,9 @@ namespace {
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
 constexpr std::size_t kMostRows = 10'000'000;  // As many as GrainsSpec::count allows.
 constexpr double kLargestRadius = 10;          // [m], as RadiusSpec allows.
-constexpr std::size_t kMostProblems = 20;      // A file of another kind is wrong in every line.
 // Soft contacts let a settled grain pass a wall by a share of its radius that is well below this one.
 constexpr double kWallOverlap = 0.05;
 constexpr std::string_view kHeader = "id,x,y,radius";
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
-
-/// The whole field as a number; absent when it is none, or not finite.
-template <class Number>
-std::optional<Number> number(std::string_view field) {
-  Number value{};
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) return {};
-  if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(value)) return {};
-  }
-  return value;
-}
 
 /// Takes one line apart; absent after a report.
 class RowReader {
@@ -59,14 +41,14 @@ class RowReader {
     }
     if (count != fields.size()) return refuse(line_number, fmt::format("has {} fields", count), "4: id,x,y,radius");
 
-    const auto id = number<std::int64_t>(fields[0]);
+    const auto id = csv_number<std::int64_t>(fields[0]);
     if (!id || *id < 0 || *id > (std::int64_t{1} << 53)) {
       return refuse(line_number, fmt::format("id \"{}\" is no whole number", fields[0].substr(0, 40)),
                     "from 0 to 2^53");
     }
     std::array<double, 3> lengths{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto value = number<double>(fields[i + 1]);
+      const auto value = csv_number<double>(fields[i + 1]);
       if (!value) {
         constexpr std::array kNames = {"x", "y", "radius"};
         return refuse(line_number, fmt::format("{} \"{}\" is no finite number", kNames[i], fields[i + 1].substr(0, 40)),
@@ -90,24 +72,16 @@ class RowReader {
   }
 
   std::nullopt_t refuse(std::size_t line_number, const std::string& what, std::string allowed) {
-    ++count_;
-    if (count_ <= kMostProblems) {
-      problems_.push_back({"", fmt::format("line {}: {}", line_number, what), std::move(allowed), ""});
-    }
+    problems_.refuse(line_number, what, std::move(allowed));
     return std::nullopt;
   }
 
   /// Says how many problems were left out.
-  void finish() {
-    if (count_ > kMostProblems) {
-      problems_.push_back({"", fmt::format("and {} more lines with problems", count_ - kMostProblems), "", ""});
-    }
-  }
+  void finish() { problems_.finish(); }
 
  private:
   const scene::DomainSpec& box_;
-  base::Problems& problems_;
-  std::size_t count_ = 0;
+  LineProblems problems_;
 };
 
 std::string shortest(double number) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runner/study/assignment.h"
+#include "runner/study/check_grammar.h"
 #include "runner/study/json_value.h"
 #include "runner/study/schema.h"
 #include "runner/study/study.h"
@@ -38,6 +39,7 @@ struct Grammar {
   std::vector<Axis> axes;  ///< the first varies slowest; zip after the axes, replicates last
   std::vector<Match> exclude;
   std::vector<When> when;
+  std::vector<CheckText> checks;
   std::vector<Assignment> fidelity;  ///< what it fills in where the study says nothing
   std::vector<Assignment> set;       ///< of the command line, for scenes
 };

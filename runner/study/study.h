@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "runner/study/check.h"
 #include "solver/base/problem.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/array.h"
@@ -40,6 +41,7 @@ struct Study {
   std::string file_sha256;  ///< of the bytes that were parsed
   scene::RecordSpec record;
   std::vector<Case> cases;  ///< in the order of the expansion, each id once
+  std::vector<Check> checks;  ///< of those cases; no part of their identity
 };
 
 /// What the command line adds to a study.

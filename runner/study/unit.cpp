@@ -52,6 +52,8 @@ constexpr std::array kSymbols = {
     Symbol{"deg", {.angle = 1, .numerator = std::numbers::pi, .denominator = 180}},
     Symbol{"N", {.length = 1, .mass = 1, .time = -2}},
     Symbol{"kN", {.length = 1, .mass = 1, .time = -2, .decimal = 3}},
+    Symbol{"J", {.length = 2, .mass = 1, .time = -2}},
+    Symbol{"kJ", {.length = 2, .mass = 1, .time = -2, .decimal = 3}},
     Symbol{"Pa", {.length = -1, .mass = 1, .time = -2}},
     Symbol{"kPa", {.length = -1, .mass = 1, .time = -2, .decimal = 3}},
     Symbol{"MPa", {.length = -1, .mass = 1, .time = -2, .decimal = 6}},
@@ -75,6 +77,13 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
   }
+  return text;
+}
+
+/// A text without the spaces at its ends.
+std::string_view stripped(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   return text;
 }
 
@@ -193,17 +202,47 @@ std::string unit_example(std::string_view unit) {
   return fmt::format("1 {}", unit);
 }
 
+UnitResult check_unit(std::string_view unit) {
+  const UnitText text = read_unit(unit);
+  if (text.unit) return {};
+  std::vector<std::string> names;
+  for (const Symbol& symbol : kSymbols) names.emplace_back(symbol.name);
+  const std::string near = nearest(text.unknown, names);
+  return {0, fmt::format("has an unknown unit \"{}\"", text.unknown),
+          near.empty() ? "" : replaced(std::string(unit), text.unknown, near)};
+}
+
+UnitResult read_quantity(std::string_view text, Quantity& quantity) {
+  text = stripped(text);
+  std::size_t exponent_at = 0;
+  const std::string_view unit = stripped(text.substr(number_length(text, exponent_at)));
+  const std::string_view number = text.substr(0, text.size() - unit.size());
+  // Without number or unit it is wrong as a plain number would be.
+  if (number.empty() || unit.empty()) return read_quantity(text, "-");
+  if (UnitResult known = check_unit(unit); !known.problem.empty()) {
+    if (!known.nearest.empty()) known.nearest = fmt::format("{} {}", stripped(number), known.nearest);
+    return known;
+  }
+  const UnitResult plain = read_quantity(fmt::format("{} -", stripped(number)), "-");
+  if (plain.problem.empty()) quantity = {plain.value, std::string(unit)};
+  return plain;
+}
+
+UnitResult convert(const Quantity& quantity, std::string_view unit) {
+  if (quantity.unit.empty() || quantity.unit == unit) return {quantity.value, "", ""};
+  if (UnitResult known = check_unit(unit); !known.problem.empty()) return known;
+  return read_quantity(fmt::format("{} {}", number_text(quantity.value), quantity.unit), unit);
+}
+
 UnitResult read_quantity(std::string_view text, std::string_view unit) {
-  const Unit target = read_unit(unit).unit.value();  // A field list's unit that is none is our bug.
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  const Unit target = read_unit(unit).unit.value();  // A unit of ours that is none is our bug.
+  text = stripped(text);
 
   std::size_t exponent_at = 0;
   const std::size_t length = number_length(text, exponent_at);
   if (length == 0) return {0, "is a string without a number", unit == "-" ? "" : unit_example(unit)};
   const std::string number(text.substr(0, length));
-  std::string_view rest = text.substr(length);
-  while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+  const std::string_view rest = stripped(text.substr(length));
 
   if (rest.empty()) {
     if (unit == "-") return {0, "is a number in quotes", number};
@@ -211,12 +250,9 @@ UnitResult read_quantity(std::string_view text, std::string_view unit) {
   }
   const UnitText source = read_unit(rest);
   if (!source.unit) {
-    std::vector<std::string> names;
-    for (const Symbol& symbol : kSymbols) names.emplace_back(symbol.name);
-    const std::string near = nearest(source.unknown, names);
-    return {0, fmt::format("has an unknown unit \"{}\"", source.unknown),
-            near.empty() ? unit_example(unit)
-                         : fmt::format("{} {}", number, replaced(std::string(rest), source.unknown, near))};
+    UnitResult unknown = check_unit(rest);
+    unknown.nearest = unknown.nearest.empty() ? unit_example(unit) : fmt::format("{} {}", number, unknown.nearest);
+    return unknown;
   }
   if (!source.unit->same_dimension(target)) {
     if (unit == "-") return {0, fmt::format("is in {}, but this is a plain number", rest), number};
@@ -224,7 +260,7 @@ UnitResult read_quantity(std::string_view text, std::string_view unit) {
   }
 
   const std::string mantissa = number.substr(0, exponent_at);
-  long exponent = source.unit->decimal;
+  long exponent = source.unit->decimal - target.decimal;
   if (exponent_at < length) {
     const std::string written = number.substr(exponent_at + 1);
     if (written.size() > 5) return {0, "overflows or is too small", ""};
@@ -234,6 +270,7 @@ UnitResult read_quantity(std::string_view text, std::string_view unit) {
   double value = 0;
   const auto parsed = std::from_chars(shifted.data(), shifted.data() + shifted.size(), value);
   value = value * source.unit->numerator / source.unit->denominator;
+  value = value * target.denominator / target.numerator;
   const bool zero = mantissa.find_first_of("123456789") == std::string::npos;
   if (parsed.ec != std::errc() || !std::isfinite(value) || (value == 0 && !zero)) {
     return {0, "overflows or is too small", ""};

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -21,15 +20,6 @@ std::vector<std::string> lines(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) result.push_back(line);
   return result;
-}
-
-/// Everything below a folder with its content: to see that a command wrote nothing.
-std::map<std::string, std::string> everything(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files[entry.path().string()] = content(entry.path());
-  }
-  return files;
 }
 
 /// One study that was run, shared by the tests that only look.
@@ -337,11 +327,11 @@ TEST(Program, HelpVersionAndUsage) {
   const Workplace place;
   const Finished help = place.run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* word : {"run", "query", "curve", "figure", "trend", "show", "verify", "reindex", "Examples"}) {
+  for (const char* word : {"run", "query", "curve", "figure", "trend", "check", "show", "verify", "reindex", "Examples"}) {
     EXPECT_THAT(help.out, HasSubstr(word));
   }
   EXPECT_THAT(help.out, Not(HasSubstr("exec")));
-  for (const char* command : {"run", "query", "curve", "figure", "trend", "show", "verify", "reindex"}) {
+  for (const char* command : {"run", "query", "curve", "figure", "trend", "check", "show", "verify", "reindex"}) {
     const Finished finished = place.run({command, "--help"});
     EXPECT_EQ(finished.exit_code, 0);
     EXPECT_THAT(finished.out, HasSubstr("Example")) << command;

@@ -75,6 +75,14 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::map<std::string, std::string> everything(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[entry.path().string()] = content(entry.path());
+  }
+  return files;
+}
+
 std::string small_study(const std::string& name, const std::string& more) {
   return R"({
   "study": ")" +

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ class Workplace {
 int wait_for(pid_t process);
 
 std::string content(const std::filesystem::path& file);
+
+/// Everything below a folder with its content: to see that a command wrote nothing.
+std::map<std::string, std::string> everything(const std::filesystem::path& folder);
 
 /// A study of two tips in a bed of 200 grains, about a second of work. `more` goes into the study's top level.
 std::string small_study(const std::string& name, const std::string& more = "");

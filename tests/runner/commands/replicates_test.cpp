@@ -235,18 +235,11 @@ TEST_F(Replicated, TrendRefusesInOneLineWhatItCannotAnswer) {
 }
 
 TEST_F(Replicated, ReadingWritesNothingIntoTheStore) {
-  const auto files = [] {
-    std::map<std::string, std::string> all;
-    for (const auto& entry : fs::recursive_directory_iterator(place->results())) {
-      if (entry.is_regular_file()) all[entry.path().string()] = content(entry.path());
-    }
-    return all;
-  };
-  const auto before = files();
+  const auto before = everything(place->results());
   place->run({"query", "dense"});
   place->run({"curve", "dense", "--bands"});
   place->run({"trend", "dense", "--of", "tip_resistance_mean", "--against", "bed:solid_fraction"});
-  EXPECT_EQ(files(), before);
+  EXPECT_EQ(everything(place->results()), before);
 }
 
 }  // namespace

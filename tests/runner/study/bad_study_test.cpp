@@ -182,7 +182,8 @@ TEST_F(BadStudyFile, AnyDamageEndsInAStudyOrInItsProblems) {
   const std::string good = R"({"study": "s", "base": {"pile": {"depth": "1.2 m", "tip": {"conical": {"apex_angle": 1}}},
     "fluid": null}, "axes": {"pile.radius": [0.1, "120 mm"], "pile.driving": ["vibratory", {"constant": {"speed": 0.2}}]},
     "zip": {"pile.friction": [0, 0.5], "bed.seed": [1, 2]}, "exclude": [{"pile.radius": 0.1, "bed.seed": 2}],
-    "when": [{"if": {"pile.driving": "vibratory"}, "set": {"pile.depth": 1}}], "fidelity": "draft", "record": {"frames": [0]}})";
+    "when": [{"if": {"pile.driving": "vibratory"}, "set": {"pile.depth": 1}}], "fidelity": "draft", "record": {"frames": [0]},
+    "checks": [{"metric": "q", "value": "1 kPa", "tolerance": "5 Pa", "source": "x", "if": {"pile.radius": 0.1}, "drift": 0}]})";
   ASSERT_TRUE(problems_of(good).empty()) << sentence("", problems_of(good)[0]);
   std::mt19937 random(7);
   const std::string letters = "{}[]\",:0123456789.eE-nulltrufasm/\\ \xff\x01";

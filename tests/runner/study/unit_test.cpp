@@ -96,5 +96,43 @@ TEST(NumberText, IsShortAndReadsBackAsTheSameDouble) {
   for (const double number : {pi, 1e-300, 1.0 / 3, 123456789.123}) EXPECT_EQ(std::stod(number_text(number)), number);
 }
 
+TEST(QuantityOfAnyKind, KeepsTheUnitThatWasWritten) {
+  Quantity quantity;
+  EXPECT_EQ(read_quantity(" 44.3 kPa ", quantity).problem, "");
+  EXPECT_EQ(quantity.value, 44.3);
+  EXPECT_EQ(quantity.unit, "kPa");
+  EXPECT_EQ(read_quantity("-1e-3 J/m", quantity).problem, "");
+  EXPECT_EQ(quantity.value, -1e-3);
+  EXPECT_EQ(quantity.unit, "J/m");
+}
+
+TEST(QuantityOfAnyKind, IsRefusedWithoutNumberOrUnit) {
+  Quantity quantity;
+  EXPECT_EQ(read_quantity("", quantity).problem, "is a string without a number");
+  EXPECT_EQ(read_quantity("kPa", quantity).problem, "is a string without a number");
+  EXPECT_EQ(read_quantity("44.3", quantity).problem, "is a number in quotes");
+  EXPECT_EQ(read_quantity("44.3 kPaa", quantity).problem, "has an unknown unit \"kPaa\"");
+  EXPECT_EQ(read_quantity("44.3 kPaa", quantity).nearest, "44.3 kPa");
+  EXPECT_EQ(read_quantity("1e400 Pa", quantity).problem, "overflows or is too small");
+}
+
+TEST(Convert, LosesNoBitByPowersOfTen) {
+  EXPECT_EQ(convert({44.3, "kPa"}, "Pa").value, 44300);
+  EXPECT_EQ(convert({19.2, "mm"}, "m").value, 0.0192);
+  EXPECT_EQ(convert({5, "%"}, "-").value, 0.05);
+  EXPECT_EQ(convert({2, "kJ/m"}, "J/m").value, 2000);
+  EXPECT_EQ(convert({3, ""}, "Pa").value, 3);
+  EXPECT_EQ(convert({44300, "N/m2"}, "kPa").value, 44.3);
+  EXPECT_EQ(convert({7.2, "km/h"}, "m/s").value, 2);
+  EXPECT_DOUBLE_EQ(convert({pi / 3, "rad"}, "deg").value, 60);
+}
+
+TEST(Convert, RefusesAnotherKindAndWhatIsNoUnit) {
+  EXPECT_EQ(convert({1, "m"}, "Pa").problem, "is in m, which is not a unit for Pa");
+  EXPECT_EQ(convert({1, "m"}, "furlong").problem, "has an unknown unit \"furlong\"");
+  EXPECT_EQ(convert({1, "furlong"}, "furlong").value, 1);
+  EXPECT_EQ(convert({1, "N/m"}, "Pa").problem, "is in N/m, which is not a unit for Pa");
+}
+
 }  // namespace
 }  // namespace seapile::study

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "runner/commands/accept.h"
+#include "runner/commands/checked.h"
+#include "runner/commands/command.h"
+#include "runner/execute/exit_codes.h"
+#include "runner/present/check_table.h"
+
+namespace seapile::commands {
+namespace {
+
+struct CheckArguments {
+  std::string study, root = "results", note;
+  std::optional<std::string> accept;
+  study::Options options;
+  present::Format format = present::Format::table;
+};
+
+/// A failure outweighs what cannot be decided.
+int exit_code(const std::vector<present::Comparison>& comparisons) {
+  const auto any = [&](present::Finding finding) {
+    return std::ranges::any_of(comparisons,
+                               [&](const present::Comparison& one) { return present::judge(one).finding == finding; });
+  };
+  if (any(present::Finding::failed)) return execute::kCheckFailed;
+  const bool open = any(present::Finding::missing) || any(present::Finding::underpowered);
+  return open ? execute::kNothingMatched : execute::kDone;
+}
+
+int check(const CheckArguments& arguments) {
+  const study::Study study = study::read(arguments.study, arguments.options);
+  const CheckedCases cases(study, arguments.root);
+  if (cases.watched().empty()) {
+    fmt::print(stderr, "{} has no {}\n", study.name, study.checks.empty() ? "checks" : "check of any of these cases");
+    return execute::kNothingMatched;
+  }
+  if (arguments.accept) return accept_values(study, cases, *arguments.accept, arguments.note);
+
+  std::vector<present::Comparison> comparisons = cases.with_published();
+  for (auto& drift : cases.with_accepted(study::read_accepted(study::accepted_path(study))))
+    comparisons.push_back(std::move(drift));
+  const bool for_people = arguments.format == present::Format::table;
+  fmt::print("{}", for_people ? present::check_text(comparisons)
+                              : present::text(present::check_table(comparisons), arguments.format));
+  fmt::print(for_people ? stdout : stderr, "{}{}", for_people ? "\n" : "", present::check_remark(comparisons));
+  return exit_code(comparisons);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Call& call) {
+  static CheckArguments arguments;
+  CLI::App* command = app.add_subcommand("check", "Compare results with published and with accepted values");
+  command->add_option("STUDY", arguments.study, "Study file")->required();
+  add_study_options(*command, arguments.options);
+  CLI::Option* accept =
+      command->add_option("--accept", arguments.accept, "Record our own values of a case as right, instead")
+          ->type_name("ID|all");
+  CLI::Option* note = command->add_option("--note", arguments.note, "Why they are right")->type_name("TEXT");
+  accept->needs(note);
+  note->needs(accept);
+  add_format_option(*command, arguments.format);
+  add_store_option(*command, arguments.root);
+  command->footer(
+      "The last lines say FAILED where a mean is further from the published value than the tolerance, or where our "
+      "own\n"
+      "value has moved since it was accepted. Exit code 3: a check failed; 4: none, but results are missing or too "
+      "few.\n\n"
+      "Examples:\n"
+      "  runner check my_study.json\n"
+      "  runner check my_study.json --seeds 5 --format csv\n"
+      "  runner check my_study.json --accept 1a2b3c4d5e --note \"grains 4: rebounds are no longer lost\"");
+  command->callback([&call] { call = [] { return check(arguments); }; });
+}
+
+}  // namespace seapile::commands

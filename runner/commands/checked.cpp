@@ -1,0 +1,144 @@
+#include "runner/commands/checked.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runner/study/nearest.h"
+#include "runner/study/unit.h"
+
+namespace seapile::commands {
+
+CheckedCases::CheckedCases(const study::Study& study, const std::filesystem::path& root) : study_(study) {
+  const bool with_bed = std::ranges::any_of(
+      study.checks, [](const study::Check& check) { return check.metric.starts_with(store::kOfBed); });
+  std::map<std::pair<std::string, std::size_t>, std::size_t> places;
+  for (const study::Check& check : study.checks) {
+    for (const study::Reference& reference : check.references) {
+      for (const std::size_t i : reference.cases) {
+        if (!cases_.contains(i)) cases_[i] = store::read_finished(root, study.cases[i].id, with_bed);
+        const auto [place, first] = places.try_emplace({check.metric, i}, watched_.size());
+        if (first) watched_.push_back({check.metric, i, check.drift});
+        watched_[place->second].drift = std::min(watched_[place->second].drift, check.drift);
+      }
+    }
+  }
+  refuse_unknown_metrics();
+}
+
+/// A name that no finished case knows is misspelt; one that only some know is of newer or older runs.
+void CheckedCases::refuse_unknown_metrics() const {
+  base::Problems problems;
+  for (const study::Check& check : study_.checks) {
+    std::vector<std::string> names;
+    for (const study::Reference& reference : check.references) {
+      for (const std::size_t i : reference.cases) {
+        if (!finished(i)) continue;
+        for (const std::string& name : finished(i)->metric_names()) {
+          if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        }
+      }
+    }
+    if (names.empty() || std::ranges::find(names, check.metric) != names.end()) continue;
+    problems.push_back({check.pointer + "/metric", fmt::format("no finished case has a metric \"{}\"", check.metric),
+                        "a metric that `runner show` lists", study::nearest(check.metric, names)});
+  }
+  if (!problems.empty()) throw study::BadInput(study_.file.string(), std::move(problems));
+}
+
+const store::FinishedCase* CheckedCases::finished(std::size_t study_case) const {
+  const auto found = cases_.find(study_case);
+  return found == cases_.end() || !found->second ? nullptr : &*found->second;
+}
+
+const simulation::Metric* CheckedCases::metric(std::size_t study_case, const std::string& name) const {
+  const store::FinishedCase* one = finished(study_case);
+  return one ? one->metric(name) : nullptr;
+}
+
+/// The unit that the store has the metric in; before any case is finished that of the reference is as good.
+std::string CheckedCases::unit(const study::Check& check) const {
+  for (const Watched& watched : watched_) {
+    const simulation::Metric* found =
+        watched.metric == check.metric ? metric(watched.study_case, check.metric) : nullptr;
+    if (found) return found->unit;
+  }
+  return check.references.empty() ? "" : check.references.front().unit;
+}
+
+present::Measured CheckedCases::measured(std::size_t study_case, const std::string& name) const {
+  const study::Case& one = study_.cases[study_case];
+  const simulation::Metric* found = metric(study_case, name);
+  return {one.id, one.labels, found ? std::optional(found->value) : std::nullopt};
+}
+
+std::vector<present::Comparison> CheckedCases::with_published() const {
+  std::vector<present::Comparison> comparisons;
+  base::Problems problems;
+  for (const study::Check& check : study_.checks) {
+    const std::string in = unit(check);
+    for (const study::Reference& reference : check.references) {
+      const study::UnitResult value = study::convert({reference.value, reference.unit}, in);
+      const study::UnitResult tolerance = study::convert({reference.tolerance, reference.unit}, in);
+      if (!value.problem.empty()) {
+        problems.push_back({check.pointer + (reference.place.empty() ? "/value" : "/reference"),
+                            fmt::format("{}{}{}", reference.place, reference.place.empty() ? "" : ": ", value.problem),
+                            fmt::format("a unit of {}, which is in {}", check.metric, in), ""});
+        continue;
+      }
+      std::vector<present::Measured> cases;
+      for (const std::size_t i : reference.cases) cases.push_back(measured(i, check.metric));
+      present::Comparison one;
+      one.metric = check.metric;
+      one.unit = in;
+      one.reference = value.value;
+      one.tolerance = tolerance.value;
+      one.source = check.source;
+      one.reason = reference.reason;
+      for (auto& comparison : present::over_packings(one, cases)) comparisons.push_back(std::move(comparison));
+    }
+  }
+  if (!problems.empty()) throw study::BadInput(study_.file.string(), std::move(problems));
+  return comparisons;
+}
+
+std::vector<present::Comparison> CheckedCases::with_accepted(const std::vector<study::AcceptedValue>& accepted) const {
+  std::vector<present::Comparison> comparisons;
+  base::Problems problems;
+  for (const Watched& watched : watched_) {
+    const present::Measured one = measured(watched.study_case, watched.metric);
+    const simulation::Metric* found = metric(watched.study_case, watched.metric);
+    present::Comparison comparison;
+    comparison.against = present::Against::accepted;
+    comparison.metric = watched.metric;
+    comparison.unit = found ? found->unit : "";
+    comparison.case_ids = {one.case_id};
+    comparison.labels = one.labels;
+    if (one.value) comparison.values = {*one.value};
+    if (const auto* known = study::find_accepted(accepted, one.case_id, watched.metric)) {
+      if (!found) comparison.unit = known->unit;
+      const study::UnitResult value = study::convert({known->value, known->unit}, comparison.unit);
+      if (!value.problem.empty()) {
+        problems.push_back({fmt::format("{} of case {}", watched.metric, one.case_id), value.problem,
+                            fmt::format("a value in {}: accept it again", comparison.unit), ""});
+      }
+      comparison.reference = value.value;
+      comparison.tolerance = known->tolerance * std::abs(value.value);
+      comparison.source = fmt::format("run {} with {}", known->run, known->numerics);
+      comparison.reason = known->note;
+    }
+    comparisons.push_back(std::move(comparison));
+  }
+  if (!problems.empty()) throw study::BadInput(study::accepted_path(study_).string(), std::move(problems));
+  return comparisons;
+}
+
+std::string numerics_text(const store::RunHeader& header) {
+  std::string text;
+  for (const auto& [module, version] : header.numerics)
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", module, version);
+  return text;
+}
+
+}  // namespace seapile::commands
