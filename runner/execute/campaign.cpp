@@ -20,7 +20,7 @@ namespace seapile::execute {
 namespace fs = std::filesystem;
 
 Campaign::Campaign(const study::Study& study, CampaignOptions options)
-    : study_(study), options_(std::move(options)), numerics_(simulation::numerics_versions()) {
+    : study_(study), options_(std::move(options)), numerics_(simulation::numerics_versions) {
   options_.sharing.cores = usable_cores();
   plan_ = make_plan(study_, numerics_, [this](const std::string& id) { return read_history(options_.root, id); });
 }
@@ -70,7 +70,7 @@ std::vector<CaseOutcome> Campaign::outcomes() const {
     CaseOutcome outcome{c.id, c.labels, word(state), {}, {}};
     if (state == State::fresh || state == State::completed || state == State::diverged) {
       outcome.run_folder = store::newest_run(options_.root, c.id);
-      outcome.bed_folder = store::newest_run(options_.root, c.bed_id);
+      if (!c.bed_id.empty()) outcome.bed_folder = store::newest_run(options_.root, c.bed_id);
     }
     outcomes.push_back(std::move(outcome));
   }
@@ -110,6 +110,9 @@ Request Campaign::request_for(const Task& task) const {
     request.kind = "bed";
     request.canonical = c.bed_canonical;
     request.scene.pile.reset();
+  } else if (task.kind == Kind::flow) {
+    request.kind = "flow";
+    request.canonical = c.canonical;
   } else {
     request.kind = "drive";
     request.canonical = c.canonical;

@@ -50,7 +50,7 @@ class Campaign {
 
   const study::Study& study_;
   CampaignOptions options_;
-  std::vector<simulation::NumericsVersion> numerics_;
+  Numerics numerics_;
   Plan plan_;
   Summary summary_;
   std::string ingest_trouble_;  ///< the first; the results are safe in their folders all the same

@@ -21,6 +21,7 @@
 #include "runner/execute/provenance.h"
 #include "runner/store/run_folder.h"
 #include "runner/study/study.h"
+#include "solver/simulation/jet.h"
 #include "solver/simulation/run.h"
 
 namespace seapile::execute {
@@ -78,7 +79,7 @@ store::RunHeader header_of(const Request& request) {
   header.bed_run = request.bed_run;
   if (request.kind == "drive") header.record_json = study::to_json(request.record);
   header.parts = simulation::parts(request.scene);
-  header.numerics = simulation::numerics_versions();
+  header.numerics = simulation::numerics_versions(request.scene);
   return header;
 }
 
@@ -103,7 +104,7 @@ class Job {
     store::RunWriter writer(folder_, header_);
     log("attempt {} of {} {}, {} threads", attempt_.count, request_.kind, request_.case_id, request_.threads);
     tell_(Started{folder_.filename().string(), !writer.resumable().state.empty()});
-    const int code = request_.kind == "bed" ? prepare(writer) : drive(writer);
+    const int code = request_.kind == "bed" ? prepare(writer) : request_.kind == "flow" ? flow(writer) : drive(writer);
     log("ended with code {}", code);
     return code;
   }
@@ -159,6 +160,26 @@ class Job {
     return finish(writer, result, nullptr);
   }
 
+  int flow(store::RunWriter& writer) {
+    Metronome checkpoints(request_.checkpoint_every);
+    simulation::JetHooks hooks;
+    hooks.frame = [&](const simulation::FlowFrame& frame) { writer.add(frame); };
+    hooks.progress = [this](const simulation::Progress& progress) { advance(progress); };
+    hooks.checkpoint_due = [&] { return checkpoints.due(); };
+    hooks.checkpoint = [&](const std::vector<simulation::Array>& state) {
+      writer.checkpoint(state);
+      note_cost();
+    };
+    hooks.stop = [] { return stop_requested != 0; };
+    const simulation::RunResult result =
+        simulation::run_jet(*request_.scene.jet, execution(), writer.resumable().state, hooks);
+    if (result.outcome == Outcome::stopped) {
+      log("stopped on request at t = {} H/U", result.time);
+      return kStoppedResumable;
+    }
+    return finish(writer, result, nullptr);
+  }
+
   int finish(store::RunWriter& writer, const simulation::RunResult& result, const simulation::Bed* bed) {
     store::Provenance made = provenance();
     made.threads = request_.threads;
@@ -209,7 +230,7 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
     return kClaimHeld;
   }
   // Decided under the claim: another runner may have finished the case since the plan was made.
-  Asked asked{simulation::numerics_versions(), std::nullopt, request.bed_run};
+  Asked asked{simulation::numerics_versions(request.scene), std::nullopt, request.bed_run};
   if (request.kind == "drive") asked.record = request.record;
   const Decision decision = decide(asked, read_history(request.root, request.case_id));
   if (decision.action == Action::fresh) return kDone;

@@ -113,7 +113,7 @@ Decision decide(const Asked& asked, const History& history) {
   return {Action::run, reason, ""};
 }
 
-Plan make_plan(const study::Study& study, const std::vector<NumericsVersion>& numerics, const Disk& disk) {
+Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& disk) {
   Plan plan;
   struct BedState {
     std::size_t task;
@@ -125,13 +125,14 @@ Plan make_plan(const study::Study& study, const std::vector<NumericsVersion>& nu
   // Every bed once, in the order in which the study first names it.
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     const study::Case& c = study.cases[i];
+    if (c.scene.jet) continue;
     const bool is_bed = c.id == c.bed_id;
     auto [bed, inserted] = beds.try_emplace(c.bed_id, BedState{plan.tasks.size(), {}, is_bed});
     bed->second.needed |= is_bed;
     if (!inserted) continue;
     bed->second.history = disk(c.bed_id);
     plan.tasks.push_back({Kind::bed, c.bed_id, i, std::nullopt, "bed " + short_id(c.bed_id), most_threads(c.scene),
-                          decide({numerics, std::nullopt, ""}, bed->second.history)});
+                          decide({numerics(c.scene), std::nullopt, ""}, bed->second.history)});
   }
   // A drive by itself: a bed that has been run again since, or is lost, does not count yet.
   std::vector<History> histories(study.cases.size());
@@ -139,26 +140,29 @@ Plan make_plan(const study::Study& study, const std::vector<NumericsVersion>& nu
     const study::Case& c = study.cases[i];
     if (c.id == c.bed_id) continue;
     histories[i] = disk(c.id);
+    const std::string labels = label_line(c.labels), name = labels.empty() ? "case " + short_id(c.id) : labels;
+    if (c.scene.jet) {
+      plan.tasks.push_back({Kind::flow, c.id, i, std::nullopt, name, 1, decide({numerics(c.scene), std::nullopt, ""}, histories[i])});
+      continue;
+    }
     BedState& bed = beds.at(c.bed_id);
     const Decision& of_bed = plan.tasks[bed.task].decision;
-    Asked asked{numerics, study.record, of_bed.run};
+    Asked asked{numerics(c.scene), study.record, of_bed.run};
     if (of_bed.action != Action::fresh) asked.bed_run = histories[i].past ? histories[i].past->bed_run : "";
     const Decision decision = decide(asked, histories[i]);
     bed.needed |= decision.action != Action::fresh;
-    const std::string labels = label_line(c.labels);
-    plan.tasks.push_back({Kind::drive, c.id, i, bed.task, labels.empty() ? "case " + short_id(c.id) : labels,
-                          most_threads(c.scene), decision});
+    plan.tasks.push_back({Kind::drive, c.id, i, bed.task, name, most_threads(c.scene), decision});
   }
   // A bed that is run for one drive is new to all that are built on it.
   for (Task& task : plan.tasks) {
-    if (task.kind == Kind::bed) continue;
+    if (task.kind != Kind::drive) continue;
     const study::Case& c = study.cases[task.study_case];
     const BedState& bed = beds.at(c.bed_id);
     const Decision& of_bed = plan.tasks[bed.task].decision;
     if (!bed.needed || of_bed.action == Action::fresh) continue;
     const std::string run = run_to_come(bed.history, of_bed);
     const bool was_fresh = task.decision.action == Action::fresh;
-    task.decision = decide({numerics, study.record, run}, histories[task.study_case]);
+    task.decision = decide({numerics(c.scene), study.record, run}, histories[task.study_case]);
     if (was_fresh && task.decision.action != Action::fresh) task.decision.reason = "bed newly computed";
   }
   // Lost or outdated beds of fresh drives are nobody's concern.

@@ -64,9 +64,9 @@ Decision decide(const Asked& asked, const History& history);
 /// What `have` lacks of `want`, in words; empty when it covers it: the same rhythm and grid, and at least its frames.
 std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want);
 
-enum class Kind { bed, drive };
+enum class Kind { bed, drive, flow };
 
-/// One case to be considered: a bed, or a drive that is built on one.
+/// One case to be considered: a bed, a drive that is built on one, or a flow without grains.
 struct Task {
   Kind kind = Kind::drive;
   std::string id;                  ///< case id
@@ -85,8 +85,11 @@ struct Plan {
   std::vector<Task> tasks;  ///< beds first, each once
 };
 
+/// Tells today's numerics of a scene.
+using Numerics = std::function<std::vector<simulation::NumericsVersion>(const scene::SceneSpec&)>;
+
 /// Decides about every case of the study. Beds that nothing needs any more are left out.
-Plan make_plan(const study::Study& study, const std::vector<simulation::NumericsVersion>& numerics, const Disk& disk);
+Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& disk);
 
 /// The plan for people, one line per case; many cases with the same reason share a line.
 std::vector<std::string> describe(const Plan& plan);

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kTick{500};
 /// The pool while it works: the plan's tasks with their states.
 class Pool {
  public:
-  Pool(Plan& plan, const study::Study& study, const std::vector<simulation::NumericsVersion>& numerics,
+  Pool(Plan& plan, const study::Study& study, const Numerics& numerics,
        const Sharing& sharing, Workers& workers, const StoreView& store, const Watch& watch)
       : plan_(plan),
         study_(study),
@@ -74,7 +74,7 @@ class Pool {
 
   void replan(std::size_t i) {
     Task& task = plan_.tasks[i];
-    Asked asked{numerics_, std::nullopt, ""};
+    Asked asked{numerics_(study_.cases[task.study_case].scene), std::nullopt, ""};
     if (task.kind == Kind::drive) {
       const History bed = store_.disk(study_.cases[task.study_case].bed_id);
       asked.record = study_.record;
@@ -163,7 +163,7 @@ class Pool {
 
   Plan& plan_;
   const study::Study& study_;
-  const std::vector<simulation::NumericsVersion>& numerics_;
+  const Numerics& numerics_;
   const Sharing& sharing_;
   Workers& workers_;
   const StoreView& store_;
@@ -190,7 +190,7 @@ int threads_for_next(const Sharing& sharing, int running, int busy, int ready, i
   return std::clamp(free / std::min(ready, most - running), 1, useful);
 }
 
-Summary carry_out(Plan& plan, const study::Study& study, const std::vector<simulation::NumericsVersion>& numerics,
+Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics,
                   const Sharing& sharing, Workers& workers, const StoreView& store, const Watch& watch) {
   return Pool(plan, study, numerics, sharing, workers, store, watch).run();
 }

@@ -96,7 +96,7 @@ struct Summary {
 
 /// Runs everything that is not fresh, a drive after its bed. Updates the decisions of tasks that had to be planned
 /// again.
-Summary carry_out(Plan& plan, const study::Study& study, const std::vector<simulation::NumericsVersion>& numerics,
+Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics,
                   const Sharing& sharing, Workers& workers, const StoreView& store, const Watch& watch);
 
 /// The exit code of the command.

@@ -9,13 +9,13 @@ namespace seapile::execute {
 
 struct Request {
   std::string root;          ///< of the store
-  std::string kind;          ///< "bed" or "drive"
+  std::string kind;          ///< "bed", "drive" or "flow"
   std::string case_id;       ///< of the case to be run
   std::string canonical;     ///< its canonical text
   scene::SceneSpec scene;    ///< for a bed: the bed alone
   scene::RecordSpec record;  ///< what to record of a drive
-  std::string bed_id;        ///< of a drive's bed; "" for a bed
-  std::string bed_run;       ///< the bed's run to start from; "" for a bed
+  std::string bed_id;        ///< of a drive's bed; "" otherwise
+  std::string bed_run;       ///< the bed's run to start from; "" otherwise
   int threads = 1;
   double checkpoint_every = 10;  ///< [s] of wall time between two checkpoints
   int parent = 0;                ///< process that the worker must not outlive; 0: none

@@ -144,6 +144,7 @@ std::string canonical_text(const scene::BedSpec& bed) {
 }
 
 std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed_id) {
+  if (scene.jet) return object_text({{"jet", object_text(members_of<Purpose::identity>(*scene.jet))}});
   // Without a pile nothing is done to the bed, and the case is the bed.
   if (!scene.pile) return canonical_text(scene.bed);
   Members members = members_of<Purpose::identity>(scene);
@@ -154,10 +155,12 @@ std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed
 std::string canonical_text(const scene::RecordSpec& record) { return object_text(members_of<Purpose::identity>(record)); }
 
 std::string to_json(const scene::SceneSpec& scene) {
+  if (scene.jet) return object_text({{"jet", object_text(members_of<Purpose::handover>(*scene.jet))}});
   Members bed = members_of<Purpose::handover>(scene.bed);
   if (!scene.bed.file_content.empty()) bed["file_content"] = string_text(scene.bed.file_content);
   Members members = members_of<Purpose::handover>(scene);
   members["bed"] = object_text(bed);
+  members.erase("jet");
   return object_text(members);
 }
 

@@ -104,6 +104,7 @@ class Expander {
     if (excluded) return;
     ++kept_;
 
+    check_jet(draft);
     const bool all_used = check_use(draft, used);
     for (const auto& problem : draft.problems) collector_.add(problem);
     std::optional<double> bed_height;
@@ -149,11 +150,24 @@ class Expander {
             {pointer(layer.value->place), "has no place where " + why_not, "a path of the cases that match", ""});
       }
     }
+    const Value* jet = draft.tree.find("jet");
+    const bool is_jet = jet && jet->kind != Value::Kind::null;
     for (const auto& [path, value] : grammar_.fidelity) {
+      if ((path.front() == "jet") != is_jet) continue;
       if (!is_written(draft.tree, path)) assign(draft.tree, scene_schema(), path, value);
     }
     read_spec(draft.tree, draft.scene, draft.problems);
     return draft;
+  }
+
+  /// What a study writes beside a jet would be lost on it.
+  void check_jet(const Draft& draft) {
+    if (!draft.scene.jet) return;
+    for (const char* part : kNotOfAJet) {
+      const Value* written = draft.tree.find(part);
+      if (!written || written->kind == Value::Kind::null) continue;
+      collector_.add_once_at({pointer(written->place), "is not used: the scene is a jet", "nothing here, or jet null", ""});
+    }
   }
 
   /// An axis that changes nothing would make equal cases under different names: false, and told.
@@ -166,6 +180,7 @@ class Expander {
                               "exclude such cases, or write it into the values of the other axis", ""});
     };
     const auto why_not_used = [&](const std::string& path) -> std::string {
+      if (draft.scene.jet) return "the scene is a jet";
       if (path.starts_with("bed.preparation.contact") || (path.starts_with("contact") && draft.scene.pile))
         return "the contact solver has no such member";
       return draft.scene.pile ? "the grains come from bed.file" : "there is no pile";
@@ -231,6 +246,7 @@ class Expander {
       problem.pointer = written_at(draft.tree, inside);
       if (unread.empty() || (said && !unread.contains(problem.pointer))) collector_.add_once_at(problem);
     }
+    if (draft.scene.jet) ++jets_;
     if (!draft.scene.pile) return;
     ++recorded_;
     for (const auto& problem : scene::validate(grammar_.record, draft.scene)) {
@@ -262,8 +278,10 @@ class Expander {
   void name_case(const scene::SceneSpec& scene) {
     Case one;
     one.scene = scene;
-    one.bed_canonical = canonical_text(scene.bed);
-    one.bed_id = case_id(one.bed_canonical);
+    if (!scene.jet) {
+      one.bed_canonical = canonical_text(scene.bed);
+      one.bed_id = case_id(one.bed_canonical);
+    }
     one.canonical = canonical_text(scene, one.bed_id);
     one.id = case_id(one.canonical);
     for (std::size_t axis = 0; axis < grammar_.axes.size(); ++axis) {
@@ -317,8 +335,8 @@ class Expander {
     const auto report = [&](const PlacePtr& place) {
       collector_.add({pointer(place), "is not used: no case of this study has a pile", "a pile in the base", ""});
     };
-    if (const Value* contact = grammar_.base.find("contact")) report(contact->place);
-    if (!grammar_.fidelity.empty()) report(grammar_.fidelity.front().value.place);
+    if (const Value* contact = grammar_.base.find("contact"); contact && jets_ == 0) report(contact->place);
+    if (!grammar_.fidelity.empty() && jets_ == 0) report(grammar_.fidelity.front().value.place);
     if (!grammar_.record_text.items.empty()) report(grammar_.record_text.place);
   }
 
@@ -328,7 +346,7 @@ class Expander {
   Expansion result_;
   std::vector<std::size_t> axis_indices_;    ///< the combination at hand, an index into each axis
   std::vector<std::size_t> excluded_, met_;  ///< cases that each exclude and each when matched
-  std::size_t kept_ = 0, recorded_ = 0;      ///< cases that are not excluded; those of them with a pile
+  std::size_t kept_ = 0, recorded_ = 0, jets_ = 0;  ///< cases that are not excluded; of them those with a pile, and jets
   std::set<const Assignment*> used_settings_;
   std::map<std::tuple<std::string, double, double>, std::optional<GrainFile>> grain_files_;
   std::map<std::string, std::pair<base::Problem, std::size_t>> record_problems_;  ///< by pointer, with their cases

@@ -18,7 +18,7 @@ using Kind = Value::Kind;
 constexpr std::size_t kLongestName = 64;
 const Path kSeed = {"bed", "seed"};
 
-/// What a level of fidelity means for the contact solver while driving.
+/// What a level of fidelity means for the contact solver while driving,
 struct Fidelity {
   const char* name;
   const char* method;
@@ -32,6 +32,18 @@ constexpr std::array kFidelities = {
     Fidelity{"standard", "soft", 5e-4, 10, "single"},
     Fidelity{"reference", "soft", 5e-4, 20, "double"},
 };
+
+/// And for a jet: its mesh and, in the thesis, its scheme in time. Errors of the swell ratio: docs/die_swell.md.
+struct JetFidelity {
+  double lip_size, growth, largest_size;  ///< [H]
+};
+constexpr std::array kJetFidelities = {
+    JetFidelity{0.05, 0.05, 0.1},
+    JetFidelity{0.01, 0.2, 0.3},
+    JetFidelity{0.001, 0.12, 0.12},
+    JetFidelity{0.0002, 0.05, 0.06},
+};
+static_assert(kJetFidelities.size() == kFidelities.size());
 
 class Reader {
  public:
@@ -233,6 +245,14 @@ class Reader {
                          {{"contact", "precision"}, string_value(fidelity.precision, value->place)}};
     if (fidelity.substeps > 0)
       grammar_.fidelity.push_back({{"contact", "substeps"}, number_value(fidelity.substeps, value->place)});
+
+    const JetFidelity& jet = kJetFidelities[*index];
+    for (const auto& [key, number] : {std::pair("lip_size", jet.lip_size), std::pair("growth", jet.growth),
+                                      std::pair("largest_size", jet.largest_size)})
+      grammar_.fidelity.push_back({{"jet", key}, number_value(number, value->place)});
+    if (std::string_view(fidelity.name) != "thesis") return;
+    grammar_.fidelity.push_back({{"jet", "method", "transient", "kinematic"}, string_value("differences", value->place)});
+    grammar_.fidelity.push_back({{"jet", "method", "transient", "order"}, number_value(1, value->place)});
   }
 
   void read_command_line() {

@@ -67,6 +67,10 @@ ResolvedScene resolve_all(const scene::SceneSpec& scene) {
 
 ResolvedScene resolve_used(const scene::SceneSpec& scene) {
   ResolvedScene resolved = resolve_all(scene);
+  if (scene.jet) {
+    for (const char* part : kNotOfAJet) erase_part(resolved, part);
+    return resolved;
+  }
   const auto drop_unused = [&](const grains::ContactSpec& contact, const std::string& path) {
     const auto visit = [&](const base::Field& field, const auto&) {
       if (!uses(contact, field.key)) erase_part(resolved, path + "." + std::string(field.key));

@@ -27,13 +27,16 @@ inline constexpr std::array kDecidedByFile = {"bed.grains.count", "bed.grains.ra
 /// What only soft impulses have: for the non-smooth method these members of a contact solver do not exist.
 inline constexpr std::array kOfSoftMethod = {"substeps", "stiffness", "damping"};
 
+/// Parts of a scene that a jet has not.
+inline constexpr std::array kNotOfAJet = {"bed", "pile", "fluid", "contact"};
+
 /// Whether a contact solver uses one of its own members.
 bool uses(const grains::ContactSpec& contact, std::string_view member);
 
 /// Every value of the scene. A variant's path holds the name of its alternative.
 ResolvedScene resolve_all(const scene::SceneSpec& scene);
 
-/// Every value that the scene uses: without a pile no `contact`, with a grain file nothing that the file decides, and of
+/// Every value that the scene uses: a jet nothing but itself, without a pile no `contact`, with a grain file nothing that the file decides, and of
 /// a contact solver what its method has.
 ResolvedScene resolve_used(const scene::SceneSpec& scene);
 

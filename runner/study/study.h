@@ -29,7 +29,7 @@ struct Case {
   std::string canonical;   ///< canonical text of the scene, in which the bed is its case id
   std::string id;          ///< SHA-256 of the canonical text, 64 hex digits
   std::string bed_canonical;
-  std::string bed_id;  ///< of the bed that the scene is built on; equal to `id` when the scene is the bed alone
+  std::string bed_id;  ///< of the bed that the scene is built on; equal to `id` when the scene is the bed alone, "" when it has none
   /// What distinguishes this case in its study: (dotted path, value as text with its unit), in the order of the axes.
   std::vector<std::pair<std::string, std::string>> labels;
 };

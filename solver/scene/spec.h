@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/base/fields.h"
+#include "solver/fluid/jet_spec.h"
 #include "solver/grains/grains_spec.h"
 #include "solver/pile/pile_spec.h"
 
@@ -14,6 +15,7 @@ namespace seapile::scene {
 
 using base::between;
 using base::Field;
+using base::later;
 using base::part;
 using base::positive;
 using base::SameAs;
@@ -51,12 +53,13 @@ void fields(auto& visit, SameAs<BedSpec> auto& bed) {
   visit(part("file", "CSV file of grains (id,x,y,radius in m), relative to the study; \"\": drawn at random"), bed.file);
 }
 
-/// A case: a bed, and what is done to it.
+/// A case: a bed, and what is done to it; or a jet of fluid, which is a scene by itself.
 struct SceneSpec {
   BedSpec bed;
   std::optional<pile::PileSpec> pile;  ///< absent: the bed alone
   base::OnlyNull fluid;                ///< only dry scenes yet
   grains::ContactSpec contact;         ///< the solver while driving
+  std::optional<fluid::JetSpec> jet;   ///< present: the scene is this jet, and there is neither bed nor pile
   friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
 };
 void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
@@ -64,6 +67,7 @@ void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
   visit(part("pile", "the driven pile; null: the bed alone"), scene.pile);
   visit(part("fluid", "null: dry"), scene.fluid);
   visit(part("contact", "the contact solver while driving"), scene.contact);
+  visit(later(part("jet", "a jet from a die, instead of all the others; null: none")), scene.jet);
 }
 
 /// What is kept of a run. Not part of a case's identity: it changes no bit of the simulation.

@@ -51,9 +51,17 @@ std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpe
 
 }  // namespace
 
-std::vector<NumericsVersion> numerics_versions() { return {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}}; }
+std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
+  if (scene.jet) return {{"mesh", 1}, {"fluid", 1}, {"free_surface", 1}};
+  return {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
+}
 
 std::vector<Part> parts(const scene::SceneSpec& scene) {
+  if (scene.jet) {
+    const std::string jet = "the scene is a jet of fluid";
+    return {{"grains", false, jet}, {"walls", false, jet}, {"pile", false, jet}, {"restitution", false, jet},
+            {"mesh", true, "the fluid lives on it"}, {"fluid", true, jet}, {"free_surface", true, "the jet finds its own shape"}};
+  }
   const std::string dry = "the scene is dry: \"fluid\" is null";
   return {{"grains", true, "the bed has " + std::to_string(scene.bed.grains.count) + " grains"},
           {"walls", true, "the box holds the grains"},

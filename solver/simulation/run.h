@@ -22,7 +22,8 @@ struct NumericsVersion {
   std::string module;
   int version;
 };
-std::vector<NumericsVersion> numerics_versions();
+/// Those of the modules that a scene is computed by.
+std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene);
 
 /// A part of the solver, and whether this scene was built with it.
 struct Part {

@@ -11,6 +11,8 @@ namespace seapile::execute::fake {
 
 inline const std::vector<simulation::NumericsVersion> kNumerics = {{"grains", 1}, {"pile", 1}};
 
+inline std::vector<simulation::NumericsVersion> numerics(const scene::SceneSpec&) { return kNumerics; }
+
 /// A drive called `id` on a bed called `bed_id`; a bed alone when they are the same.
 inline study::Case make_case(const std::string& id, const std::string& bed_id) {
   study::Case c;

@@ -19,7 +19,7 @@ struct PlanTest : testing::Test {
   study::Study study = fake::make_study({{"flat", "bed"}, {"cone", "bed"}});
 
   Plan plan(const std::vector<simulation::NumericsVersion>& numerics = kNumerics) {
-    return make_plan(study, numerics, disk.look());
+    return make_plan(study, [&](const scene::SceneSpec&) { return numerics; }, disk.look());
   }
   void complete_all() {
     disk.complete_bed("bed");

@@ -94,7 +94,7 @@ struct PoolTest : testing::Test {
   std::optional<FakeWorkers> workers;
 
   void prepare() {
-    plan = make_plan(study, fake::kNumerics, disk.look());
+    plan = make_plan(study, fake::numerics, disk.look());
     workers.emplace(disk, plan);
   }
   Summary go() {
@@ -109,7 +109,7 @@ struct PoolTest : testing::Test {
     watch.signalled = [](int) {};
     watch.tick = [] {};
     const StoreView store = {disk.look(), [this](const std::string& id) { return claimed.contains(id); }};
-    return carry_out(plan, study, fake::kNumerics, sharing, *workers, store, watch);
+    return carry_out(plan, study, fake::numerics, sharing, *workers, store, watch);
   }
   State state(const Summary& summary, const std::string& id) const {
     for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
@@ -265,7 +265,7 @@ TEST_F(PoolTest, ACaseThatAnotherRunnerFinishesIsNotDoneTwice) {
                              }
                              return claimed.contains(id);
                            }};
-  const Summary summary = carry_out(plan, study, fake::kNumerics, sharing, *workers, store, watch);
+  const Summary summary = carry_out(plan, study, fake::numerics, sharing, *workers, store, watch);
   EXPECT_EQ(looks, 3);
   EXPECT_EQ(state(summary, "flat"), State::completed);
   EXPECT_EQ(std::ranges::count(started(), "flat"), 1);
@@ -310,11 +310,11 @@ TEST_F(PoolTest, AProcessThatCannotBeStartedIsAFailedCase) {
       throw std::system_error(EAGAIN, std::generic_category(), "fork");
     }
   };
-  plan = make_plan(study, fake::kNumerics, disk.look());
+  plan = make_plan(study, fake::numerics, disk.look());
   NoProcesses none(disk, plan);
   Watch watch{[](auto...) {}, [](auto...) {}, [](auto...) {}, [](auto...) {}, [](auto...) {}, [] {}};
   const Summary summary =
-      carry_out(plan, study, fake::kNumerics, sharing, none, {disk.look(), [](const auto&) { return false; }}, watch);
+      carry_out(plan, study, fake::numerics, sharing, none, {disk.look(), [](const auto&) { return false; }}, watch);
   EXPECT_EQ(state(summary, "bed"), State::failed);
   EXPECT_EQ(state(summary, "flat"), State::blocked);
 }

@@ -171,7 +171,7 @@ TEST(Run, WithoutAPileIsRefused) {
 
 TEST(NumericsVersions, NameEveryModuleOnce) {
   std::vector<std::string> names;
-  for (const NumericsVersion& v : numerics_versions()) {
+  for (const NumericsVersion& v : numerics_versions(scene::SceneSpec{})) {
     names.push_back(v.module);
     EXPECT_GE(v.version, 1);
   }
