@@ -53,7 +53,7 @@ FrameLayout layout_of(const FrameSource& frames, FrameList list) {
 std::string leaf(const Array& array) { return array.info.name.substr(array.info.name.find('/') + 1); }
 
 bool is_vector_in_space(const Array& array) {
-  static const std::set<std::string> kVectors = {"position", "velocity", "displacement", "normal"};
+  static const std::set<std::string> kVectors = {"position", "velocity", "mesh_velocity", "displacement", "normal"};
   return array.info.columns == 2 && kVectors.contains(leaf(array));
 }
 

@@ -7,15 +7,19 @@
 #include <vector>
 
 #include "runner/store/hdf5_file.h"
+#include "solver/simulation/flow_frame.h"
 #include "solver/simulation/frame.h"
 
 namespace seapile::store {
 
 /// Frames on demand, so that not all of them need to be in memory.
-struct FrameSource {
+template <class F>
+struct OnDemand {
   std::size_t count = 0;
-  std::function<simulation::Frame(std::size_t)> load;
+  std::function<F(std::size_t)> load;
 };
+using FrameSource = OnDemand<simulation::Frame>;
+using FlowFrameSource = OnDemand<simulation::FlowFrame>;
 
 /// One of a frame's lists of arrays: &Frame::grains, &Frame::contacts or &Frame::cells.
 using FrameList = std::vector<simulation::Array> simulation::Frame::*;
@@ -43,8 +47,8 @@ FrameLayout layout_of(const FrameSource& frames, FrameList list);
 /// The part of an array's name behind "grains/".
 std::string leaf(const simulation::Array& array);
 
-/// Whether an array is a vector in space. VTK wants those with three components: position, velocity, displacement and
-/// normal get a z of zero in files.
+/// Whether an array is a vector in space. VTK wants those with three components: position, velocity, mesh_velocity,
+/// displacement and normal get a z of zero in files.
 bool is_vector_in_space(const simulation::Array& array);
 simulation::Array in_space(const simulation::Array& array);
 void to_plane(simulation::Array& array);

@@ -132,6 +132,7 @@ std::vector<XdmfStep> write_cells(hdf5::FileWriter& writer, const Stamp& stamp, 
   for (std::size_t k = 0; k < frames.count; ++k) {
     steps[k].points = {"/VTKHDF/Points", "points", hdf5::Number::f64, {point_count, 3}};
     steps[k].cells = {"/grid/corners", "corners", hdf5::Number::i64, {cell_count, 4}};
+    steps[k].of_cells = true;
     if (cell_count == 0) continue;
     offsets.time.push_back(layout.time[k]);
     offsets.rows.push_back(whole(layout.first_row[k]));
