@@ -24,9 +24,9 @@ CREATE INDEX study_case_by_case ON study_case (case_id);
 -- What was asked, of every case that has a run ("case" is a word of SQL).
 CREATE TABLE kase (
   case_id   TEXT PRIMARY KEY CHECK (length(case_id) = 64),  -- SHA-256 of the canonical text
-  kind      TEXT NOT NULL,                                  -- "bed" or "drive"
+  kind      TEXT NOT NULL,                                  -- "bed", "drive" or "flow"
   canonical TEXT NOT NULL,                                  -- canonical text, in which a bed is its case id
-  bed_id    TEXT                                            -- case id of the bed; NULL: the case is a bed
+  bed_id    TEXT                                            -- case id of the bed; NULL: there is none
 ) STRICT;
 
 -- The parameters of a case: its newest run's scene, flattened to dotted paths ("pile.driving.constant.speed").
@@ -55,7 +55,7 @@ CREATE TABLE run (
   depth          REAL,                                      -- reached [m]; NULL: no pile
   state_hash     TEXT NOT NULL,                             -- XXH3 of the final state, 16 hex digits
   records        INTEGER NOT NULL,                          -- rows of the series
-  frames         INTEGER NOT NULL,                          -- frames kept
+  frames         INTEGER NOT NULL,                          -- frames of the grains kept
   version        TEXT NOT NULL,                             -- of Seapile
   commit_sha     TEXT NOT NULL,                             -- of its source
   dirty          INTEGER NOT NULL CHECK (dirty IN (0, 1)),  -- 1: the source had changes

@@ -12,7 +12,7 @@ using simulation::ArrayInfo;
 using simulation::Entity;
 
 // As they stand in files: entries are only added at the end.
-constexpr const char* kEntities[] = {"run", "grain", "contact", "cell"};
+constexpr const char* kEntities[] = {"run", "grain", "contact", "cell", "vertex", "triangle", "surface"};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "runner/store/arrays.h"
 
@@ -23,25 +24,28 @@ bool same_grid(const Frame::Grid& a, const Frame::Grid& b) {
 
 }  // namespace
 
+void ListLayout::add(std::vector<Array> list) {
+  const std::size_t count = list.empty() ? 0 : row_count(list.front());
+  rows.push_back(count);
+  first_row.push_back(total_rows);
+  total_rows += count;
+  for (Array& array : list) std::visit([](auto& values) { values.clear(); }, array.values);
+  if (!arrays.empty() && !list.empty() && !std::ranges::equal(arrays, list, alike)) {
+    throw std::logic_error("the frames of a run have different arrays");
+  }
+  if (arrays.empty()) arrays = std::move(list);
+}
+
 FrameLayout layout_of(const FrameSource& frames, FrameList list) {
   FrameLayout layout;
   for (std::size_t k = 0; k < frames.count; ++k) {
     Frame frame = frames.load(k);
-    std::vector<Array>& arrays = frame.*list;
-    const std::size_t rows = arrays.empty() ? 0 : row_count(arrays.front());
     layout.time.push_back(frame.time);
     layout.depth.push_back(frame.depth);
     layout.asked.push_back(frame.asked);
-    layout.rows.push_back(rows);
-    layout.first_row.push_back(layout.total_rows);
-    layout.total_rows += rows;
     if (k == 0) layout.grid = frame.grid;
     if (!same_grid(layout.grid, frame.grid)) throw std::logic_error("the frames of a run have different grids");
-    for (Array& array : arrays) std::visit([](auto& values) { values.clear(); }, array.values);
-    if (layout.arrays.empty()) layout.arrays = arrays;
-    if (!arrays.empty() && !std::ranges::equal(layout.arrays, arrays, alike)) {
-      throw std::logic_error("the frames of a run have different arrays");
-    }
+    layout.add(std::move(frame.*list));
   }
   return layout;
 }
@@ -49,7 +53,7 @@ FrameLayout layout_of(const FrameSource& frames, FrameList list) {
 std::string leaf(const Array& array) { return array.info.name.substr(array.info.name.find('/') + 1); }
 
 bool is_vector_in_space(const Array& array) {
-  static const std::set<std::string> kVectors = {"position", "velocity", "displacement", "normal"};
+  static const std::set<std::string> kVectors = {"position", "velocity", "mesh_velocity", "displacement", "normal"};
   return array.info.columns == 2 && kVectors.contains(leaf(array));
 }
 

@@ -1,13 +1,12 @@
 #include "runner/store/frames_file.h"
 
 #include <array>
-#include <cstdio>
 
 #include "runner/store/arrays.h"
 #include "runner/store/durable.h"
 #include "runner/store/run_folder.h"
 #include "runner/store/seal.h"
-#include "runner/store/xdmf.h"
+#include "runner/store/vtk_file.h"
 
 namespace seapile::store {
 
@@ -15,95 +14,23 @@ namespace {
 
 using simulation::Array;
 using simulation::Frame;
-using Integers = std::vector<std::int64_t>;
 
 constexpr std::uint8_t kVtkQuad = 9;  // vtkCellType.h
 // The order of the topologies in the columns of a step's offsets, as VTKHDF defines it.
 constexpr std::array kTopologies = {"Vertices", "Lines", "Polygons", "Strips"};
 
-std::int64_t whole(std::size_t number) { return static_cast<std::int64_t>(number); }
-
-/// Where the array lies when the frames are put one after the other. The positions of points are the points.
-std::string flattened(const Array& array, const std::string& data_group) {
-  return leaf(array) == "position" ? "/VTKHDF/Points" : "/VTKHDF/" + data_group + "/" + leaf(array);
-}
-
-/// Begins the file: its stamp, its type, and which depths its frames are at.
+/// Begins the file, and says at which depths its frames are.
 void write_head(hdf5::FileWriter& writer, const std::string& content, const std::string& type, const Stamp& stamp,
                 const FrameLayout& layout) {
-  write_stamp(writer, content, stamp);
-  writer.group("/VTKHDF");
-  writer.attribute("/VTKHDF", "Version", Integers{2, 0});
-  writer.attribute("/VTKHDF", "Type", type);
-  const auto per_frame = [&](const std::string& name, const std::string& unit, const std::string& meaning,
-                             const std::vector<double>& values) {
-    writer.dataset("/frames/" + name, {values.size(), 0}, values);
-    writer.attribute("/frames/" + name, "units", unit);
-    writer.attribute("/frames/" + name, "meaning", meaning);
-  };
-  per_frame("time", "s", "time of the frame", layout.time);
-  per_frame("depth", "m", "depth d of the tip below the initial bed surface", layout.depth);
-  per_frame("asked", "m", "depth that was asked for", layout.asked);
+  write_head(writer, content, type, stamp);
+  write_per_frame(writer, "time", "s", "time of the frame", layout.time);
+  write_per_frame(writer, "depth", "m", "depth d of the tip below the initial bed surface", layout.depth);
+  write_per_frame(writer, "asked", "m", "depth that was asked for", layout.asked);
 }
 
-/// Writes the values of all frames one after the other, and the windows onto each. Returns what the sidecar needs of
-/// them.
-std::vector<XdmfStep> write_values(hdf5::FileWriter& writer, const FrameSource& frames, FrameList list,
-                                   const FrameLayout& layout, const std::string& data_group) {
-  for (std::size_t a = 0; a < layout.arrays.size(); ++a) {
-    const std::string path = flattened(layout.arrays[a], data_group);
-    writer.create(path, number_of(layout.arrays[a]), extents_in_file(layout.arrays[a], layout.total_rows));
-    describe_dataset(writer, path, layout.arrays[a].info, a);
-  }
-  std::vector<XdmfStep> steps(frames.count);
-  for (std::size_t k = 0; k < frames.count; ++k) {
-    const Frame frame = frames.load(k);
-    const std::vector<Array>& arrays = (frame.*list).empty() ? layout.arrays : frame.*list;
-    steps[k].time = frame.time;
-    for (std::size_t a = 0; a < arrays.size(); ++a) {
-      const Array& array = arrays[a];
-      const std::string source = flattened(array, data_group), path = step_path("steps", k) + "/" + leaf(array);
-      const std::uint64_t hash =
-          std::visit([&]<class T>(const std::vector<T>& v) { return writer.append(source, std::span<const T>(v)); },
-                     is_vector_in_space(array) ? in_space(array).values : array.values);
-      writer.window(path, source, layout.first_row[k], layout.rows[k], hash);
-      describe_dataset(writer, path, array.info, a);
-      const XdmfArray entry{path, leaf(array), number_of(array), extents_in_file(array, layout.rows[k])};
-      if (leaf(array) == "position") {
-        steps[k].points = entry;
-      } else {
-        steps[k].arrays.push_back(entry);
-      }
-    }
-  }
-  return steps;
-}
-
-/// Where the parts, points, cells and connectivities of each drawn step begin.
-struct StepOffsets {
-  std::vector<double> time;
-  Integers rows;  ///< first row of the step in its arrays
-  Integers parts, points;
-  Integers cells, connectivities;  ///< one column per topology
-};
-
-void write_steps(hdf5::FileWriter& writer, const FrameLayout& layout, const StepOffsets& offsets,
-                 const std::string& data_group) {
-  const std::size_t count = offsets.time.size();
-  const std::size_t topologies = count == 0 ? 1 : offsets.cells.size() / count;
-  const std::string group = "/VTKHDF/Steps";
-  writer.group(group);
-  writer.attribute(group, "NSteps", whole(count));
-  writer.dataset(group + "/Values", {count, 0}, offsets.time);
-  writer.dataset(group + "/NumberOfParts", {count, 0}, Integers(count, 1));
-  writer.dataset(group + "/PartOffsets", {count, 0}, offsets.parts);
-  writer.dataset(group + "/PointOffsets", {count, 0}, offsets.points);
-  writer.dataset(group + "/CellOffsets", {count, topologies}, offsets.cells);
-  writer.dataset(group + "/ConnectivityIdOffsets", {count, topologies}, offsets.connectivities);
-  for (const Array& array : layout.arrays) {
-    if (leaf(array) == "position") continue;
-    writer.dataset(group + "/" + data_group + "Offsets/" + leaf(array), {count, 0}, offsets.rows);
-  }
+/// One of the lists of each frame.
+ListSource list_of(const FrameSource& frames, FrameList list) {
+  return [&frames, list](std::size_t k) { return frames.load(k).*list; };
 }
 
 /// A file of points, one vertex cell each. Each drawn step is a part.
@@ -111,7 +38,7 @@ std::vector<XdmfStep> write_points(hdf5::FileWriter& writer, const std::string& 
                                    const FrameSource& frames, FrameList list) {
   const FrameLayout layout = layout_of(frames, list);
   write_head(writer, content, "PolyData", stamp, layout);
-  std::vector<XdmfStep> steps = write_values(writer, frames, list, layout, "PointData");
+  std::vector<XdmfStep> steps = write_values(writer, "PointData", layout, layout.time, list_of(frames, list));
   if (layout.arrays.empty()) writer.dataset("/VTKHDF/Points", {0, 3}, std::vector<double>{});
 
   const std::string vertices = std::string("/VTKHDF/") + kTopologies.front();
@@ -125,7 +52,7 @@ std::vector<XdmfStep> write_points(hdf5::FileWriter& writer, const std::string& 
     const std::uint64_t hash =
         writer.append(vertices + "/Connectivity", std::span<const std::int64_t>(points).first(count));
     const std::string cells = step_path("vertices", k);
-    writer.window(cells, vertices + "/Connectivity", layout.first_row[k], count, hash);
+    writer.window(cells, vertices + "/Connectivity", layout.first_row[k], {count, 0}, hash);
     steps[k].cells = {cells, "vertices", hdf5::Number::i64, {count, 0}};
     if (count == 0) continue;
     const std::int64_t first = whole(layout.first_row[k]);
@@ -149,7 +76,7 @@ std::vector<XdmfStep> write_points(hdf5::FileWriter& writer, const std::string& 
     writer.dataset(group + "/Offsets", {is_used ? ends.size() : parts, 0}, is_used ? ends : Integers(parts, 0));
     if (!is_used) writer.dataset(group + "/Connectivity", {0, 0}, Integers{});
   }
-  write_steps(writer, layout, offsets, "PointData");
+  write_steps(writer, "PointData", layout, offsets);
   return steps;
 }
 
@@ -184,7 +111,7 @@ std::vector<XdmfStep> write_cells(hdf5::FileWriter& writer, const Stamp& stamp, 
   writer.dataset("/grid/corner", {2, 0}, std::vector<double>{grid.x0, grid.y0});
   writer.dataset("/grid/spacing", {1, 0}, std::vector<double>{grid.spacing});
   writer.dataset("/grid/cells", {2, 0}, Integers{grid.nx, grid.ny});
-  std::vector<XdmfStep> steps = write_values(writer, frames, &Frame::cells, layout, "CellData");
+  std::vector<XdmfStep> steps = write_values(writer, "CellData", layout, layout.time, list_of(frames, &Frame::cells));
 
   const std::vector<double> points = grid_points(grid);
   const Integers corners = grid_corners(grid);
@@ -205,12 +132,13 @@ std::vector<XdmfStep> write_cells(hdf5::FileWriter& writer, const Stamp& stamp, 
   for (std::size_t k = 0; k < frames.count; ++k) {
     steps[k].points = {"/VTKHDF/Points", "points", hdf5::Number::f64, {point_count, 3}};
     steps[k].cells = {"/grid/corners", "corners", hdf5::Number::i64, {cell_count, 4}};
+    steps[k].of_cells = true;
     if (cell_count == 0) continue;
     offsets.time.push_back(layout.time[k]);
     offsets.rows.push_back(whole(layout.first_row[k]));
   }
   offsets.parts = offsets.points = offsets.cells = offsets.connectivities = Integers(offsets.time.size(), 0);
-  write_steps(writer, layout, offsets, "CellData");
+  write_steps(writer, "CellData", layout, offsets);
   return steps;
 }
 
@@ -238,12 +166,6 @@ std::vector<Array> read_list(const std::filesystem::path& folder, const std::str
 }
 
 }  // namespace
-
-std::string step_path(const char* name, std::size_t index) {
-  char path[64];
-  std::snprintf(path, sizeof path, "/%s/%05zu", name, index);
-  return path;
-}
 
 void write_frames(const std::filesystem::path& folder, const Stamp& stamp, const FrameSource& frames) {
   if (frames.count == 0) return;

@@ -29,7 +29,4 @@ simulation::Frame read_frame(const std::filesystem::path& folder, const Stamp& s
 /// The depths that the frames were asked for [m]; of a run with frames. Throws like read_frame().
 std::vector<double> read_asked_depths(const std::filesystem::path& folder, const Stamp& stamp);
 
-/// "/steps/00012" for the name "steps".
-std::string step_path(const char* name, std::size_t index);
-
 }  // namespace seapile::store

@@ -96,8 +96,9 @@ class FileWriter {
     create(path, number_of<T>(), extents);
     append(path, std::span<const T>(values));
   }
-  /// A dataset that shows rows of another one (an HDF5 virtual dataset); `xxh3` as append() returned it for them.
-  void window(const std::string& path, const std::string& source, std::uint64_t first, std::uint64_t rows,
+  /// A dataset that shows rows of another one from `first` on (an HDF5 virtual dataset); its extents may share the
+  /// values of whole rows out in another way. `xxh3` as append() returned it for them.
+  void window(const std::string& path, const std::string& source, std::uint64_t first, Extents extents,
               std::uint64_t xxh3);
 
   /// Flushes and closes everything, every return code checked.

@@ -127,10 +127,13 @@ std::uint64_t FileWriter::append(const std::string& path, Number number, const v
   return XXH3_64bits(values, count * size_of(number));
 }
 
-void FileWriter::window(const std::string& path, const std::string& source, std::uint64_t first, std::uint64_t rows,
+void FileWriter::window(const std::string& path, const std::string& source, std::uint64_t first, Extents extents,
                         std::uint64_t xxh3) {
   const Dataset& from = *datasets_.at(source);
-  const Extents extents{rows, from.extents.columns};
+  const std::uint64_t columns = std::max<std::uint64_t>(from.extents.columns, 1), rows = extents.count() / columns;
+  if (extents.count() % columns != 0 || first + rows > from.extents.rows) {
+    throw std::logic_error(path + " is no window onto rows of " + source);
+  }
   const std::string doing = "create " + path + " in " + file_name_;
   group(path.substr(0, path.rfind('/')));
   Handle space = space_of(extents, doing);

@@ -9,6 +9,7 @@
 
 #include "runner/store/bed_file.h"
 #include "runner/store/durable.h"
+#include "runner/store/flow_file.h"
 #include "runner/store/frames_file.h"
 #include "runner/store/layout.h"
 #include "runner/store/manifest.h"
@@ -150,6 +151,7 @@ std::vector<std::string> verify(const Path& run_folder) {
 std::vector<simulation::Record> read_series(const Path& run_folder) {
   const Manifest manifest = read_manifest(run_folder);
   if (is_listed(manifest, "bed.h5")) return read_bed(run_folder).records;
+  if (manifest.records == 0 && !is_listed(manifest, "series.h5")) return {};
   hdf5::FileReader reader(intact(run_folder, manifest, "series.h5"));
   check_stamp(reader, "series", stamp_of(manifest));
   std::vector<simulation::Record> records = read_series(reader, "/series");
@@ -169,6 +171,17 @@ simulation::Frame read_frame(const Path& run_folder, std::size_t index) {
   if (index >= manifest.frames) throw std::out_of_range("the run has no frame " + std::to_string(index));
   for (const char* file : kFrameFiles) intact(run_folder, manifest, file);
   return read_frame(run_folder, stamp_of(manifest), index);
+}
+
+std::size_t flow_frame_count(const Path& run_folder) { return read_manifest(run_folder).flow_frames; }
+
+simulation::FlowFrame read_flow_frame(const Path& run_folder, std::size_t index) {
+  const Manifest manifest = read_manifest(run_folder);
+  if (index >= manifest.flow_frames) throw std::out_of_range("the run has no flow frame " + std::to_string(index));
+  intact(run_folder, manifest, kFlowFile);
+  const bool with_surface = is_listed(manifest, kSurfaceFile);
+  if (with_surface) intact(run_folder, manifest, kSurfaceFile);
+  return read_flow_frame(run_folder, stamp_of(manifest), index, with_surface);
 }
 
 std::vector<double> asked_depths(const Path& run_folder) {

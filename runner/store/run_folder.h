@@ -4,7 +4,8 @@
 //   <root>/cases/<case id>/lock             flock: who holds it may run the case
 //   <root>/cases/<case id>/<nnnn>/          one run; complete if and only if manifest.json is there and verifies
 //       manifest.json  series.h5  grains.vtkhdf + .xdmf  contacts.vtkhdf + .xdmf  fields.vtkhdf + .xdmf
-//       bed.h5 (a bed's grains, exact)  checkpoint/a.h5, b.h5  segment/<nnnnnn>.h5 (only while running)  log.txt
+//       bed.h5 (a bed's grains, exact)  flow.vtkhdf + .xdmf  surface.h5 (the water's mesh and free surface)
+//       checkpoint/a.h5, b.h5  segment/<nnnnnn>.h5 (only while running)  log.txt
 //
 // The seal of every file: written under a temporary name, flushed, every close's return code checked, fsynced,
 // re-opened and compared with what was held, renamed, directory fsynced. On the first error StoreError is thrown and
@@ -20,6 +21,7 @@
 
 #include "runner/store/store_error.h"
 #include "solver/simulation/array.h"
+#include "solver/simulation/flow_frame.h"
 #include "solver/simulation/frame.h"
 #include "solver/simulation/record.h"
 #include "solver/simulation/run.h"
@@ -41,12 +43,12 @@ class Claim {
 
 /// What is known of a run before it starts.
 struct RunHeader {
-  std::string kind;         ///< "bed" or "drive"
+  std::string kind;         ///< "bed", "drive" or "flow"
   std::string case_id;      ///< 64 hex digits
   std::string canonical;    ///< canonical text of the case
   std::string scene_json;   ///< the full scene, as study::to_json gives it
-  std::string bed_id;       ///< case id of the bed ("" for a bed)
-  std::string bed_run;      ///< run number of the bed that was used ("" for a bed)
+  std::string bed_id;       ///< case id of the bed ("" where there is none)
+  std::string bed_run;      ///< run number of the bed that was used ("" where there is none)
   std::string record_json;  ///< what was asked to be recorded
   std::vector<simulation::Part> parts;
   std::vector<simulation::NumericsVersion> numerics;
@@ -77,7 +79,7 @@ struct Manifest {
   int schema = 1;
   std::string run;   ///< "0001"
   RunHeader header;  ///< its JSON texts come back compact, whatever their spacing was
-  std::size_t records = 0, frames = 0;
+  std::size_t records = 0, frames = 0, flow_frames = 0;
   simulation::RunResult result;
   Provenance provenance;
   std::vector<FileEntry> files;
@@ -89,6 +91,7 @@ struct Resumable {
   std::vector<simulation::Array> state;     ///< of the newest checkpoint that verifies
   std::vector<simulation::Record> records;  ///< of the sealed segments up to that checkpoint
   std::size_t frames = 0;                   ///< frames in those segments
+  std::size_t flow_frames = 0;              ///< frames of the water in those segments
 };
 
 /// Writes one run. Records and frames are held in memory until a checkpoint seals them into a segment.
@@ -102,14 +105,17 @@ class RunWriter {
   const Resumable& resumable() const;
 
   void add(const simulation::Record& record);
+  /// Throw std::logic_error when a frame is not what its header promises.
   void add(const simulation::Frame& frame);
+  void add(const simulation::FlowFrame& frame);
 
   /// Seals the records and frames since the last call and the state, alternating a.h5 and b.h5.
   void checkpoint(const std::vector<simulation::Array>& state);
 
   /// Merges, seals and verifies every file, writes the manifest last, then removes segments and checkpoints (a diverged
   /// run keeps them). `bed`: for a bed's run, its grains, porosity profile and records (bed.h5 instead of series.h5;
-  /// records that were add()ed must be the same). A stopped run is not finished: std::logic_error.
+  /// records that were add()ed must be the same). A flow without records has no series.h5. A stopped run is not
+  /// finished: std::logic_error.
   void finish(const simulation::RunResult& result, Provenance provenance, const simulation::Bed* bed);
 
  private:
@@ -139,7 +145,7 @@ std::vector<std::string> verify(const std::filesystem::path& run_folder);
 
 // The readers of a complete run compare each file with the manifest before the HDF5 library sees it.
 
-/// Reads the whole series of a complete run. Throws StoreError.
+/// Reads the whole series of a complete run; empty for a flow without records. Throws StoreError.
 std::vector<simulation::Record> read_series(const std::filesystem::path& run_folder);
 
 /// Reads a bed's run back, bit for bit what finish() was given. Throws StoreError.
@@ -148,6 +154,10 @@ simulation::Bed read_bed(const std::filesystem::path& run_folder);
 /// Number of frames of a complete run, and one of them, bit for bit. Throw StoreError.
 std::size_t frame_count(const std::filesystem::path& run_folder);
 simulation::Frame read_frame(const std::filesystem::path& run_folder, std::size_t index);
+
+/// The same of the frames of the water.
+std::size_t flow_frame_count(const std::filesystem::path& run_folder);
+simulation::FlowFrame read_flow_frame(const std::filesystem::path& run_folder, std::size_t index);
 
 /// The depths [m] that the frames of a complete run were asked for, in their order. Throws StoreError.
 std::vector<double> asked_depths(const std::filesystem::path& run_folder);

@@ -7,6 +7,7 @@
 
 #include "runner/store/bed_file.h"
 #include "runner/store/durable.h"
+#include "runner/store/flow_file.h"
 #include "runner/store/frames_file.h"
 #include "runner/store/layout.h"
 #include "runner/store/manifest.h"
@@ -15,6 +16,7 @@
 #include "runner/store/seal.h"
 #include "runner/store/series.h"
 #include "runner/store/sha256.h"
+#include "runner/store/well_formed.h"
 
 namespace seapile::store {
 
@@ -25,7 +27,8 @@ using simulation::Record;
 
 // Everything that a run can consist of, once it is complete.
 constexpr std::array kMerged = {"bed.h5",      "contacts.vtkhdf", "contacts.xdmf", "fields.vtkhdf",
-                                "fields.xdmf", "grains.vtkhdf",   "grains.xdmf",   "series.h5"};
+                                "fields.xdmf", "flow.vtkhdf",     "flow.xdmf",     "grains.vtkhdf",
+                                "grains.xdmf", "series.h5",       "surface.h5"};
 // What a run seals while it runs.
 constexpr std::array kRunning = {"checkpoint", "segment"};
 
@@ -79,13 +82,17 @@ struct RunWriter::Impl {
   std::vector<Path> segments;
   std::vector<std::string> digests;  ///< SHA-256 of the segments
   Resumable resumable;
-  std::vector<Record> records;  ///< since the last segment
-  std::vector<simulation::Frame> frames;
+  Segment pending;  ///< since the last segment
 
   void open();
   void seal_segment();
   std::vector<Record> all_records() const;
-  FrameSource all_frames() const;
+  FrameSource all_frames() const { return all_of_a_kind(&segment_frame_count, &segment_frame); }
+  FlowFrameSource all_flow_frames() const { return all_of_a_kind(&segment_flow_frame_count, &segment_flow_frame); }
+  /// `count_in` and `load` know the frames of one segment.
+  template <class F>
+  OnDemand<F> all_of_a_kind(std::size_t (*count_in)(const Path&, const Stamp&),
+                            F (*load)(const Path&, const Stamp&, std::size_t)) const;
 };
 
 void RunWriter::Impl::open() {
@@ -99,15 +106,15 @@ void RunWriter::Impl::open() {
   resumable.state = std::move(recovered.checkpoint.state);
   resumable.records = all_records();
   resumable.frames = all_frames().count;
+  resumable.flow_frames = all_flow_frames().count;
 }
 
 void RunWriter::Impl::seal_segment() {
   const Path file = segment_file(folder, static_cast<std::int64_t>(segments.size()) + 1);
-  write_segment(file, stamp, records, frames);
+  write_segment(file, stamp, pending);
   segments.push_back(file);
   digests.push_back(sha256_of_file(file));
-  records.clear();
-  frames.clear();
+  pending = {};
 }
 
 std::vector<Record> RunWriter::Impl::all_records() const {
@@ -119,15 +126,17 @@ std::vector<Record> RunWriter::Impl::all_records() const {
   return all;
 }
 
-FrameSource RunWriter::Impl::all_frames() const {
+template <class F>
+OnDemand<F> RunWriter::Impl::all_of_a_kind(std::size_t (*count_in)(const Path&, const Stamp&),
+                                           F (*load)(const Path&, const Stamp&, std::size_t)) const {
   std::vector<std::pair<Path, std::size_t>> places;  // The segment of a frame, and its place there.
   for (const Path& segment : segments) {
-    const std::size_t count = segment_frame_count(segment, stamp);
+    const std::size_t count = count_in(segment, stamp);
     for (std::size_t i = 0; i < count; ++i) places.emplace_back(segment, i);
   }
   const std::size_t count = places.size();
-  return {count, [places = std::move(places), this](std::size_t k) {
-            return segment_frame(places.at(k).first, stamp, places.at(k).second);
+  return {count, [places = std::move(places), load, this](std::size_t k) {
+            return load(places.at(k).first, stamp, places.at(k).second);
           }};
 }
 
@@ -140,11 +149,16 @@ RunWriter::RunWriter(Path folder, RunHeader header) : impl_(std::make_shared<Imp
 
 const Resumable& RunWriter::resumable() const { return impl_->resumable; }
 
-void RunWriter::add(const Record& record) { impl_->records.push_back(record); }
+void RunWriter::add(const Record& record) { impl_->pending.records.push_back(record); }
 
 void RunWriter::add(const simulation::Frame& frame) {
   require_well_formed(frame);
-  impl_->frames.push_back(frame);
+  impl_->pending.frames.push_back(frame);
+}
+
+void RunWriter::add(const simulation::FlowFrame& frame) {
+  require_well_formed(frame);
+  impl_->pending.flow_frames.push_back(frame);
 }
 
 void RunWriter::checkpoint(const std::vector<simulation::Array>& state) {
@@ -158,7 +172,7 @@ void RunWriter::checkpoint(const std::vector<simulation::Array>& state) {
 void RunWriter::finish(const simulation::RunResult& result, Provenance provenance, const simulation::Bed* bed) {
   if (result.outcome == simulation::Outcome::stopped) throw std::logic_error("a stopped run is not finished");
   Impl& run = *impl_;
-  if (!run.records.empty() || !run.frames.empty()) run.seal_segment();
+  if (!run.pending.empty()) run.seal_segment();
 
   const Stamp stamp{run.stamp.case_id, run.stamp.run};
   const std::vector<Record> records = run.all_records();
@@ -167,7 +181,7 @@ void RunWriter::finish(const simulation::RunResult& result, Provenance provenanc
       throw std::logic_error("the records of a bed's run are not those of the bed");
     }
     write_bed(run.folder / "bed.h5", stamp, *bed);
-  } else {
+  } else if (!records.empty() || run.header.kind != "flow") {
     seal(run.folder / "series.h5", hdf5::Storage::packed, [&](hdf5::FileWriter& writer) {
       write_stamp(writer, "series", stamp);
       write_series(writer, "/series", records);
@@ -175,6 +189,8 @@ void RunWriter::finish(const simulation::RunResult& result, Provenance provenanc
   }
   const FrameSource frames = run.all_frames();
   write_frames(run.folder, stamp, frames);
+  const FlowFrameSource flow_frames = run.all_flow_frames();
+  write_flow_frames(run.folder, stamp, flow_frames);
 
   // The segments hold what led to a divergence; of a completed run everything is in the files just sealed.
   const bool keep_running = result.outcome == simulation::Outcome::diverged;
@@ -183,6 +199,7 @@ void RunWriter::finish(const simulation::RunResult& result, Provenance provenanc
                     run.header,
                     bed != nullptr ? bed->records.size() : records.size(),
                     frames.count,
+                    flow_frames.count,
                     result,
                     std::move(provenance),
                     list_files(run.folder, keep_running),

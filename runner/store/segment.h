@@ -6,20 +6,27 @@
 #include <vector>
 
 #include "runner/store/stamp.h"
+#include "solver/simulation/flow_frame.h"
 #include "solver/simulation/frame.h"
 #include "solver/simulation/record.h"
 
 namespace seapile::store {
 
-void write_segment(const std::filesystem::path& file, const Stamp& stamp,
-                   const std::vector<simulation::Record>& records, const std::vector<simulation::Frame>& frames);
+/// What a run hands out between two checkpoints.
+struct Segment {
+  std::vector<simulation::Record> records;
+  std::vector<simulation::Frame> frames;
+  std::vector<simulation::FlowFrame> flow_frames;
+  bool empty() const { return records.empty() && frames.empty() && flow_frames.empty(); }
+};
+
+void write_segment(const std::filesystem::path& file, const Stamp& stamp, const Segment& segment);
 
 std::vector<simulation::Record> segment_records(const std::filesystem::path& file, const Stamp& stamp);
 std::size_t segment_frame_count(const std::filesystem::path& file, const Stamp& stamp);
 simulation::Frame segment_frame(const std::filesystem::path& file, const Stamp& stamp, std::size_t index);
-
-/// Throws std::logic_error when a frame is not what frame.h promises: its arrays' names and their rows.
-void require_well_formed(const simulation::Frame& frame);
+std::size_t segment_flow_frame_count(const std::filesystem::path& file, const Stamp& stamp);
+simulation::FlowFrame segment_flow_frame(const std::filesystem::path& file, const Stamp& stamp, std::size_t index);
 
 struct Checkpoint {
   std::int64_t generation = 0;        ///< 1 for the first of a run

@@ -22,6 +22,11 @@ const char* attribute_type(const hdf5::Extents& extents) {
   return extents.columns == 3 ? "Vector" : "Matrix";
 }
 
+const char* topology_type(const hdf5::Extents& cells) {
+  if (cells.columns == 0) return "Polyvertex\" NodesPerElement=\"1";
+  return cells.columns == 3 ? "Triangle" : "Quadrilateral";
+}
+
 }  // namespace
 
 std::string xdmf(const std::string& file, const std::vector<XdmfStep>& steps) {
@@ -32,16 +37,14 @@ std::string xdmf(const std::string& file, const std::vector<XdmfStep>& steps) {
 )";
   for (const XdmfStep& step : steps) {
     if (step.cells.extents.rows == 0) continue;
-    const bool are_points = step.cells.extents.columns == 0;
     text += fmt::format("      <Grid Name=\"step\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n", step.time);
     text += fmt::format("        <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">{}</Topology>\n",
-                        are_points ? "Polyvertex\" NodesPerElement=\"1" : "Quadrilateral", step.cells.extents.rows,
-                        data_item(file, step.cells));
+                        topology_type(step.cells.extents), step.cells.extents.rows, data_item(file, step.cells));
     text += fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", data_item(file, step.points));
     for (const XdmfArray& array : step.arrays) {
       text +=
           fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", array.name,
-                      attribute_type(array.extents), are_points ? "Node" : "Cell", data_item(file, array));
+                      attribute_type(array.extents), step.of_cells ? "Cell" : "Node", data_item(file, array));
     }
     text += "      </Grid>\n";
   }

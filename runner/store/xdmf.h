@@ -21,8 +21,9 @@ struct XdmfArray {
 struct XdmfStep {
   double time = 0;
   XdmfArray points;
-  XdmfArray cells;                ///< one point per row, or the four of a quadrilateral
-  std::vector<XdmfArray> arrays;  ///< one row per cell
+  XdmfArray cells;                ///< one point per row, the three of a triangle, or the four of a quadrilateral
+  std::vector<XdmfArray> arrays;  ///< one row per point, or
+  bool of_cells = false;          ///< one row per cell
 };
 
 /// `file` is the name of the HDF5 file beside the sidecar. Steps without a cell are left out.

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "runner/store/durable.h"
-#include "tests/runner/store/sample_run.h"
+#include "tests/runner/store/sample_flow.h"
 #include "tests/runner/store/scratch.h"
 
 namespace seapile::store::fault {
@@ -152,6 +152,37 @@ TEST(BitFlip, IsNeverReadAsAResult) {
   flips.print_counts();
   EXPECT_EQ(verified, kFlips);
   EXPECT_EQ(refused + harmless, kFlips);
+}
+
+TEST(BitFlip, OfAFlowIsNeverReadAsAResult) {
+  const Scratch scratch;
+  const Path run = sample::write_flow(scratch.path());
+  const auto all_right = [&] {
+    for (std::size_t k = 0; k < sample::kFlowFrames; ++k) {
+      if (!sample::difference(read_flow_frame(run, k), sample::flow_frame(k)).empty()) return false;
+    }
+    return read_series(run).empty() && flow_frame_count(run) == sample::kFlowFrames;
+  };
+  ASSERT_TRUE(all_right());
+
+  Flips flips({run});
+  std::size_t verified = 0, refused = 0;
+  for (std::size_t i = 0; i < kFlips; ++i) {
+    const Path file = flips.make(i);
+    SCOPED_TRACE(flips.place());
+    const bool found = verify_sees(run);
+    EXPECT_TRUE(found) << "verify() sees nothing";
+    verified += found ? 1 : 0;
+    try {
+      EXPECT_TRUE(all_right()) << "silently wrong";
+      EXPECT_TRUE(is_never_read(file)) << "the library has opened a damaged file";
+    } catch (const StoreError&) {
+      ++refused;
+    }
+    flips.restore();
+  }
+  std::printf("%zu flips: verify() saw %zu; readers refused %zu\n", kFlips, verified, refused);
+  flips.print_counts();
 }
 
 // A run that was interrupted has no manifest yet: its checkpoints say what its segments are, and hash themselves.

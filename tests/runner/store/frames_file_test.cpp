@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "runner/store/durable.h"
+#include "runner/store/vtk_file.h"
 #include "tests/runner/store/sample_run.h"
 #include "tests/runner/store/scratch.h"
 
@@ -13,7 +14,6 @@ namespace seapile::store {
 namespace {
 
 using Path = std::filesystem::path;
-using Integers = std::vector<std::int64_t>;
 
 /// Three frames, the one in the middle without a contact.
 class FramesFile : public testing::Test {

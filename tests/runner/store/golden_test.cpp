@@ -35,6 +35,7 @@ TEST(GoldenV1, HasTheManifestThatWasWritten) {
   EXPECT_EQ(manifest.header.bed_run, "0001");
   EXPECT_EQ(manifest.records, 20U);
   EXPECT_EQ(manifest.frames, 2U);
+  EXPECT_EQ(manifest.flow_frames, 0U);  // It does not say.
   EXPECT_EQ(manifest.result.outcome, simulation::Outcome::completed);
   EXPECT_EQ(manifest.result.time, 20.01);
   EXPECT_EQ(manifest.result.depth, 1.2);

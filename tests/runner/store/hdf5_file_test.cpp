@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <numeric>
 
 #include "runner/store/durable.h"
 #include "runner/store/run_folder.h"
@@ -68,7 +69,7 @@ TEST_P(Hdf5File, HoldsDatasetsWithoutARow) {
   FileWriter writer(file_, GetParam());
   writer.dataset("/flat", {0, 0}, std::vector<double>{});
   writer.dataset("/pairs", {0, 2}, Integers{});
-  writer.window("/window", "/pairs", 0, 0, 0x2d06800538d394c2U);  // XXH3 of nothing.
+  writer.window("/window", "/pairs", 0, {0, 2}, 0x2d06800538d394c2U);  // XXH3 of nothing.
   writer.close();
   FileReader reader(file_);
   EXPECT_TRUE(reader.read<double>("/flat").empty());
@@ -84,13 +85,32 @@ TEST_P(Hdf5File, IsFilledPieceByPieceAndSeenThroughWindows) {
   writer.create("/pairs", Number::i64, {3, 2});
   const auto first_hash = writer.append("/pairs", std::span<const std::int64_t>(first));
   const auto second_hash = writer.append("/pairs", std::span<const std::int64_t>(second));
-  writer.window("/steps/0", "/pairs", 0, 2, first_hash);
-  writer.window("/steps/1", "/pairs", 2, 1, second_hash);
+  writer.window("/steps/0", "/pairs", 0, {2, 2}, first_hash);
+  writer.window("/steps/1", "/pairs", 2, {1, 2}, second_hash);
   writer.close();
   FileReader reader(file_);
   EXPECT_EQ(reader.read<std::int64_t>("/pairs"), (Integers{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(reader.read<std::int64_t>("/steps/0"), first);
   EXPECT_EQ(reader.read<std::int64_t>("/steps/1"), second);
+  reader.close();
+}
+
+TEST_P(Hdf5File, HasWindowsThatShareValuesOutInRowsOfTheirOwn) {
+  // Enough of them that a window begins and ends within chunks.
+  Integers values(90'000);
+  std::iota(values.begin(), values.end(), 7);
+  FileWriter writer(file_, GetParam());
+  writer.create("/corners", Number::i64, {values.size(), 0});
+  const std::span<const std::int64_t> all(values);
+  const auto first = writer.append("/corners", all.first(30'000)),
+             second = writer.append("/corners", all.subspan(30'000));
+  writer.window("/steps/0", "/corners", 0, {10'000, 3}, first);
+  writer.window("/steps/1", "/corners", 30'000, {20'000, 3}, second);
+  writer.close();
+  FileReader reader(file_);
+  EXPECT_EQ(reader.extents("/steps/1"), (Extents{20'000, 3}));
+  EXPECT_EQ(reader.read<std::int64_t>("/steps/0"), Integers(values.begin(), values.begin() + 30'000));
+  EXPECT_EQ(reader.read<std::int64_t>("/steps/1"), Integers(values.begin() + 30'000, values.end()));
   reader.close();
 }
 
@@ -137,6 +157,8 @@ TEST(Hdf5Writer, RefusesWhatDoesNotFit) {
   EXPECT_THROW(attempt([&](auto& w) { w.append("/data", std::span<const double>(row).first(1)); }), std::logic_error);
   EXPECT_THROW(attempt([&](auto& w) { w.append("/data", std::span<const float>()); }), std::logic_error);
   EXPECT_THROW(attempt([&](auto& w) { w.append("/other", std::span<const double>(row)); }), std::logic_error);
+  EXPECT_THROW(attempt([&](auto& w) { w.window("/part", "/data", 0, {1, 3}, 0); }), std::logic_error);
+  EXPECT_THROW(attempt([&](auto& w) { w.window("/part", "/data", 1, {2, 2}, 0); }), std::logic_error);
 }
 
 TEST(Hdf5Reader, RefusesAnotherTypeAndMissingThings) {

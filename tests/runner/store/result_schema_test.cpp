@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "runner/store/hdf5_file.h"
-#include "tests/runner/store/sample_run.h"
+#include "tests/runner/store/sample_flow.h"
 #include "tests/runner/store/scratch.h"
 
 namespace seapile::store {
@@ -52,8 +52,8 @@ std::string replaced(const std::string& text, const char* what, const char* by) 
 
 /// A path of a file as the page writes it.
 std::string generic(std::string path) {
-  path = replaced(path, "^/(steps|vertices|frame)/[0-9]{5}", "/$1/<frame>");
-  path = replaced(path, "^/frame/<frame>/.*", "/frame/<frame>/<array>");
+  path = replaced(path, "^/(steps|vertices|frame|flow_frame)/[0-9]{5}", "/$1/<frame>");
+  path = replaced(path, "^/(frame|flow_frame)/<frame>/.*", "/$1/<frame>/<array>");
   path = replaced(path, "^/state/.*", "/state/<array>");
   path = replaced(path, "^/metrics/.*", "/metrics/<metric>");
   return replaced(path, "^/cost/[^/]*/", "/cost/<part>/");
@@ -137,9 +137,11 @@ void expect_file_as_listed(const Path& file, const std::string& title, Rows rows
 TEST(ResultSchema, ListsWhatIsInEveryFileOfARun) {
   const Scratch scratch;
   const sample::Written run = sample::write(scratch.fresh("complete"));
+  const Path flow = sample::write_flow(scratch.fresh("flow"));
   RunWriter writer(scratch.path() / "running" / "0001", sample::drive_header());
   writer.add(sample::record(0));
   writer.add(sample::frame(0));
+  writer.add(sample::flow_frame(0));
   writer.checkpoint(sample::state(1));
 
   const std::map<std::string, Path> files = {
@@ -148,6 +150,8 @@ TEST(ResultSchema, ListsWhatIsInEveryFileOfARun) {
       {"grains.vtkhdf", run.drive / "grains.vtkhdf"},
       {"contacts.vtkhdf", run.drive / "contacts.vtkhdf"},
       {"fields.vtkhdf", run.drive / "fields.vtkhdf"},
+      {"flow.vtkhdf", flow / "flow.vtkhdf"},
+      {"surface.h5", flow / "surface.h5"},
       {"segment/NNNNNN.h5", scratch.path() / "running" / "0001" / "segment" / "000001.h5"},
       {"checkpoint/a.h5 and checkpoint/b.h5", scratch.path() / "running" / "0001" / "checkpoint" / "a.h5"}};
   const auto pages = tables();
