@@ -47,8 +47,11 @@ int run(const RunArguments& arguments) {
 
   const int code = campaign.carry_out();
   std::vector<present::CaseResult> results;
-  for (const execute::CaseOutcome& outcome : campaign.outcomes()) {
-    results.push_back({outcome.case_id, outcome.labels, outcome.word, outcome.run_folder, outcome.bed_folder});
+  const std::vector<execute::CaseOutcome> outcomes = campaign.outcomes();
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const execute::CaseOutcome& outcome = outcomes[i];
+    results.push_back({outcome.case_id, outcome.labels, outcome.word, outcome.run_folder, outcome.bed_folder,
+                       study.cases[i].scene.jet.has_value()});
   }
   fmt::print("{}", present::closing_text(results));
   draw(study, results, arguments.campaign.root);

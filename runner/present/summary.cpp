@@ -13,8 +13,27 @@ namespace {
 
 using store::Cell;
 
-/// The columns of summary() that are means over packings when there are several.
-constexpr std::string_view kMetricColumns[] = {"solid fraction", "mean q_c", "fluctuation", "max overlap"};
+/// A column of summary(): a metric of the run or of its bed.
+struct Headline {
+  std::string_view column, unit, metric;
+  bool of_bed;
+};
+/// Means over packings when there are several.
+constexpr Headline kDriveHeadlines[] = {{"solid fraction", "-", "solid_fraction", true},
+                                        {"mean q_c", "Pa", "tip_resistance_mean", false},
+                                        {"fluctuation", "Pa", "tip_resistance_fluctuation", false},
+                                        {"max overlap", "-", "overlap_max", false}};
+constexpr Headline kFlowHeadlines[] = {{"swell ratio", "-", "swell_ratio", false},
+                                       {"surface leak", "-", "surface_leak", false},
+                                       {"mass defect", "-", "mass_defect", false},
+                                       {"vertices", "-", "vertices", false}};
+
+std::vector<Headline> headlines_of(const std::vector<CaseResult>& cases) {
+  std::vector<Headline> all;
+  if (!std::ranges::all_of(cases, &CaseResult::flow)) all.assign(std::begin(kDriveHeadlines), std::end(kDriveHeadlines));
+  if (std::ranges::any_of(cases, &CaseResult::flow)) all.insert(all.end(), std::begin(kFlowHeadlines), std::end(kFlowHeadlines));
+  return all;
+}
 
 /// What makes packings of the same case differ is left out.
 std::string label_without_seed(const Labels& labels) {
@@ -46,23 +65,22 @@ store::Table summary(const std::vector<CaseResult>& cases) {
   store::Table table = label_table(labels);
   table.columns.insert(table.columns.begin(), "case");
   table.units.insert(table.units.begin(), "");
-  const std::vector<std::pair<const char*, const char*>> columns = {{"outcome", ""},      {"solid fraction", "-"},
-                                                                    {"mean q_c", "Pa"},   {"fluctuation", "Pa"},
-                                                                    {"max overlap", "-"}, {"CPU", "s"}};
-  for (const auto& [name, unit] : columns) {
-    table.columns.emplace_back(name);
+  const std::vector<Headline> headlines = headlines_of(cases);
+  const auto add = [&](std::string_view column, std::string_view unit) {
+    table.columns.emplace_back(column);
     table.units.emplace_back(unit);
-  }
+  };
+  add("outcome", "");
+  for (const Headline& headline : headlines) add(headline.column, headline.unit);
+  add("CPU", "s");
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const CaseResult& result = cases[i];
     const auto run = manifest_of(result.run_folder), bed = manifest_of(result.bed_folder);
     std::vector<Cell> row = {result.case_id.substr(0, 10)};
     row.insert(row.end(), table.rows[i].begin(), table.rows[i].end());
     row.emplace_back(result.outcome);
-    row.push_back(metric(bed, "solid_fraction"));
-    row.push_back(metric(run, "tip_resistance_mean"));
-    row.push_back(metric(run, "tip_resistance_fluctuation"));
-    row.push_back(metric(run, "overlap_max"));
+    for (const Headline& headline : headlines)
+      row.push_back(metric(headline.of_bed ? bed : run, std::string(headline.metric)));
     row.push_back(run ? Cell{run->provenance.cpu_seconds} : Cell{});
     table.rows[i] = std::move(row);
   }
@@ -87,9 +105,10 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
 
 std::string closing_text(const std::vector<CaseResult>& cases) {
   const store::Table each = summary(cases);
+  const std::vector<Headline> headlines = headlines_of(cases);
   std::vector<Role> roles;
   for (const std::string& column : each.columns) {
-    const bool is_metric = std::ranges::find(kMetricColumns, column) != std::end(kMetricColumns);
+    const bool is_metric = std::ranges::find(headlines, column, &Headline::column) != headlines.end();
     roles.push_back(column == "case" || column == kSeed ? Role::dropped
                     : column == "outcome"               ? Role::outcome
                     : column == "CPU"                   ? Role::total
@@ -97,6 +116,7 @@ std::string closing_text(const std::vector<CaseResult>& cases) {
                                                         : Role::key);
   }
   const bool replicated = std::ranges::any_of(each.columns, [](const auto& column) { return column == kSeed; });
+  if (std::ranges::all_of(cases, &CaseResult::flow)) return text(each, Format::table);
   if (!replicated) return text(each, Format::table) + "\n" + kOnePacking + "\n";
   const Grouped grouped = group(each, roles);
   return text(grouped.table, Format::table, grouped.means) + "\n" + remark(grouped, Format::table);

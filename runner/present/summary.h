@@ -19,9 +19,10 @@ struct CaseResult {
   std::string outcome;               ///< "completed", "diverged", "failed", ...
   std::filesystem::path run_folder;  ///< its sealed run; empty when there is none
   std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
+  bool flow = false;                 ///< a flow without grains: it has no packing
 };
 
-/// Labels, outcome, and the numbers that a drive is known by. Throws store::StoreError.
+/// Labels, outcome, and the numbers that a drive, or a flow, is known by. Throws store::StoreError.
 store::Table summary(const std::vector<CaseResult>& cases);
 
 /// The completed drives as a figure, packings of the same case together. Throws store::StoreError.

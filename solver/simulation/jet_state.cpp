@@ -38,6 +38,8 @@ std::vector<std::int32_t> corners(const mesh::TriangleMesh& mesh) {
   return values;
 }
 
+std::vector<std::int64_t> wide(const std::vector<std::int32_t>& values) { return {values.begin(), values.end()}; }
+
 std::string level_name(std::size_t k, const char* what) { return "past/" + std::to_string(k) + "/" + what; }
 
 }  // namespace
@@ -66,8 +68,8 @@ FlowFrame frame_of(const fluid::Jet& jet, double time) {
                     {{"vertices/pressure", "Pa", "pressure, in mu U/H", 1, Entity::vertex}, pressure},
                     {{"vertices/porosity", "-", "share of fluid", 1, Entity::vertex}, flow.porosity},
                     {{"vertices/mesh_velocity", "m/s", "velocity of the mesh, in U", 2, Entity::vertex}, flat(flow.mesh_velocity)}};
-  frame.triangles = {{{"triangles/corner", "-", "rows of its vertices, counterclockwise", 3, Entity::triangle}, corners(flow.mesh)}};
-  frame.surface = {{{"surface/vertex", "-", "row of the vertex", 1, Entity::surface}, surface.vertex},
+  frame.triangles = {{{"triangles/corner", "-", "rows of its vertices, counterclockwise", 3, Entity::triangle}, wide(corners(flow.mesh))}};
+  frame.surface = {{{"surface/vertex", "-", "row of the vertex", 1, Entity::surface}, wide(surface.vertex)},
                    {{"surface/x", "m", "place along the jet, in H", 1, Entity::surface}, surface.x},
                    {{"surface/height", "m", "height h, in H", 1, Entity::surface}, surface.height},
                    {{"surface/curvature", "1/m", "curvature kappa, in 1/H", 1, Entity::surface},
