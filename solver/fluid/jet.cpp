@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "solver/fluid/boundary_terms.h"
 #include "solver/mesh/generate.h"
 
 namespace seapile::fluid {
@@ -24,6 +25,21 @@ mesh::TriangleMesh mesh_of(const JetSpec& spec) {
 
 double developed(Geometry geometry, double y) { return (geometry == Geometry::axisymmetric ? 2 : 1.5) * (1 - y * y); }
 
+double flux_through(const Flow& flow, std::int32_t side) {
+  double flux = 0;
+  for (const mesh::BoundaryEdge& e : flow.mesh.boundary) {
+    if (e.tag != side) continue;
+    const base::Vec2 a = flow.mesh.position[e.from], b = flow.mesh.position[e.to];
+    for (const double at : kGauss) {
+      const double ux = (1 - at) * flow.u(e.from, kVelocityX) + at * flow.u(e.to, kVelocityX);
+      const double uy = (1 - at) * flow.u(e.from, kVelocityY) + at * flow.u(e.to, kVelocityY);
+      const double r = flow.fluid.geometry == Geometry::axisymmetric ? (1 - at) * a.y + at * b.y : 1;
+      flux += 0.5 * r * (ux * (b.y - a.y) - uy * (b.x - a.x));
+    }
+  }
+  return flux;
+}
+
 Jet flat_jet(const JetSpec& spec) {
   Jet jet{at_rest(mesh_of(spec), {spec.reynolds / 2, 1, spec.geometry}), {}};
   Flow& flow = jet.flow;
@@ -37,6 +53,9 @@ Jet flat_jet(const JetSpec& spec) {
         hold(flow, v, kVelocityY, 0);
       }
     }
+  // The flux through the die is that of the profile, not of the polygon between its values.
+  const double scale = die_flux(spec) / std::abs(flux_through(flow, kInflow));
+  for (const std::int32_t v : mesh::chain(flow.mesh, kInflow)) flow.u(v, kVelocityX) *= scale;
   jet.surface = surface_along(flow.mesh, kJetSurface, 0);
   jet.surface.pinned = true;
   if (spec.capillary) jet.surface.tension = 1 / *spec.capillary;

@@ -26,6 +26,9 @@ Jet flat_jet(const JetSpec& spec);
 /// Velocity of developed flow in the die [U].
 double developed(Geometry geometry, double y);
 
+/// Flux out of the fluid through the edges of a side, with the weight y when axisymmetric.
+double flux_through(const Flow& flow, std::int32_t side);
+
 /// Flux of fluid through the die [U H, U H2 per radian].
 double die_flux(const JetSpec& spec);
 

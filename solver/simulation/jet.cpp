@@ -25,28 +25,16 @@ std::vector<base::Vec2> interstitial(const fluid::Flow& flow) {
   return v;
 }
 
-/// Flux through the jet's end [U H; U H2 per radian].
-double outflow(const fluid::Flow& flow) {
-  double flux = 0;
-  for (const mesh::BoundaryEdge& e : flow.mesh.boundary) {
-    if (e.tag != fluid::kOutflow) continue;
-    const double ya = flow.mesh.position[e.from].y, yb = flow.mesh.position[e.to].y;
-    const double ua = flow.u(e.from, fluid::kVelocityX), ub = flow.u(e.to, fluid::kVelocityX);
-    flux += flow.fluid.geometry == fluid::Geometry::planar
-                ? 0.5 * (yb - ya) * (ua + ub)
-                : (yb - ya) * (2 * ya * ua + ya * ub + yb * ua + 2 * yb * ub) / 6;
-  }
-  return flux;
-}
-
 std::vector<Metric> metrics_of(const fluid::JetSpec& spec, const fluid::Jet& jet) {
   const std::vector<base::Vec2> v = interstitial(jet.flow);
   const auto [lowest, highest] = std::ranges::minmax_element(jet.surface.height);
   return {{"swell_ratio", jet.surface.height.back(), "-", "height of the jet at its end, chi = h(L2)/H"},
           {"lowest_height", *lowest, "-", "lowest height of the surface, in H"},
           {"highest_height", *highest, "-", "highest height of the surface, in H"},
-          {"surface_leak", fluid::largest_leak(jet.surface, v, kNearLip), "-", "largest |u.n|/U on the surface, from 0.02 H behind the lip"},
-          {"mass_defect", outflow(jet.flow) / fluid::die_flux(spec) - 1, "-", "flux through the jet's end over that through the die, less 1"},
+          {"surface_leak", fluid::largest_leak(jet.surface, v, kNearLip), "-",
+           "largest |u.n|/U on the surface, from 0.02 H behind the lip"},
+          {"mass_defect", fluid::flux_through(jet.flow, fluid::kOutflow) / fluid::die_flux(spec) - 1, "-",
+           "flux through the jet's end over that through the die, less 1"},
           {"vertices", static_cast<double>(jet.flow.mesh.vertices()), "-", "vertices of the mesh"},
           {"triangles", static_cast<double>(jet.flow.mesh.triangles()), "-", "triangles of the mesh"}};
 }
@@ -67,8 +55,10 @@ RunResult run_steady(const fluid::JetSpec& spec, const JetHooks& hooks, base::Pr
     result.reason = report.reason;
   }
   result.metrics = metrics_of(spec, jet);
-  result.metrics.push_back({"iterations", static_cast<double>(report.iterations), "-", "iterations of Newton's method"});
-  result.metrics.push_back({"residual", report.residual, "-", "largest residual of an equation before the last iteration"});
+  result.metrics.push_back(
+      {"iterations", static_cast<double>(report.iterations), "-", "iterations of Newton's method"});
+  result.metrics.push_back(
+      {"residual", report.residual, "-", "largest residual of an equation before the last iteration"});
   const FlowFrame frame = frame_of(jet, 0);
   result.state_hash = hash_of(frame);
   if (hooks.frame) hooks.frame(frame);
@@ -103,7 +93,8 @@ RunResult run_in_time(const fluid::JetSpec& spec, const fluid::TransientMethod& 
   result.metrics = metrics_of(spec, run.jet);
   const double count = static_cast<double>(std::max<std::int64_t>(run.step, 1));
   result.metrics.push_back({"steps", static_cast<double>(run.step), "-", "steps done"});
-  result.metrics.push_back({"iterations_per_step", static_cast<double>(run.iterations) / count, "-", "corrections of a step, mean"});
+  result.metrics.push_back(
+      {"iterations_per_step", static_cast<double>(run.iterations) / count, "-", "corrections of a step, mean"});
   result.metrics.push_back({"refactorisations", static_cast<double>(run.solver.refactorisations), "-", "factors made"});
   const FlowFrame frame = frame_of(run.jet, result.time);
   result.state_hash = hash_of(frame);

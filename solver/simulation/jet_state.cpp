@@ -63,18 +63,21 @@ FlowFrame frame_of(const fluid::Jet& jet, double time) {
 
   FlowFrame frame;
   frame.time = time;
-  frame.vertices = {{{"vertices/position", "m", "place, in H", 2, Entity::vertex}, flat(flow.mesh.position)},
-                    {{"vertices/velocity", "m/s", "superficial velocity, in U", 2, Entity::vertex}, velocity},
-                    {{"vertices/pressure", "Pa", "pressure, in mu U/H", 1, Entity::vertex}, pressure},
-                    {{"vertices/porosity", "-", "share of fluid", 1, Entity::vertex}, flow.porosity},
-                    {{"vertices/mesh_velocity", "m/s", "velocity of the mesh, in U", 2, Entity::vertex}, flat(flow.mesh_velocity)}};
-  frame.triangles = {{{"triangles/corner", "-", "rows of its vertices, counterclockwise", 3, Entity::triangle}, wide(corners(flow.mesh))}};
-  frame.surface = {{{"surface/vertex", "-", "row of the vertex", 1, Entity::surface}, wide(surface.vertex)},
-                   {{"surface/x", "m", "place along the jet, in H", 1, Entity::surface}, surface.x},
-                   {{"surface/height", "m", "height h, in H", 1, Entity::surface}, surface.height},
-                   {{"surface/curvature", "1/m", "curvature kappa, in 1/H", 1, Entity::surface},
-                    fluid::curvature(surface, flow.fluid.geometry)},
-                   {{"surface/normal_velocity", "m/s", "velocity across the surface, in U", 1, Entity::surface}, across}};
+  frame.vertices = {
+      {{"vertices/position", "m", "place, in H", 2, Entity::vertex}, flat(flow.mesh.position)},
+      {{"vertices/velocity", "m/s", "superficial velocity, in U", 2, Entity::vertex}, velocity},
+      {{"vertices/pressure", "Pa", "pressure, in mu U/H", 1, Entity::vertex}, pressure},
+      {{"vertices/porosity", "-", "share of fluid", 1, Entity::vertex}, flow.porosity},
+      {{"vertices/mesh_velocity", "m/s", "velocity of the mesh, in U", 2, Entity::vertex}, flat(flow.mesh_velocity)}};
+  frame.triangles = {{{"triangles/corner", "-", "rows of its vertices, counterclockwise", 3, Entity::triangle},
+                      wide(corners(flow.mesh))}};
+  frame.surface = {
+      {{"surface/vertex", "-", "row of the vertex", 1, Entity::surface}, wide(surface.vertex)},
+      {{"surface/x", "m", "place along the jet, in H", 1, Entity::surface}, surface.x},
+      {{"surface/height", "m", "height h, in H", 1, Entity::surface}, surface.height},
+      {{"surface/curvature", "1/m", "curvature kappa, in 1/H", 1, Entity::surface},
+       fluid::curvature(surface, flow.fluid.geometry)},
+      {{"surface/normal_velocity", "m/s", "velocity across the surface, in U", 1, Entity::surface}, across}};
   return frame;
 }
 
@@ -94,31 +97,38 @@ std::uint64_t hash_of(const FlowFrame& frame) {
 std::vector<Array> snapshot(const fluid::JetInTime& run) {
   const fluid::Flow& flow = run.jet.flow;
   std::vector<Array> state;
-  const auto add = [&](const std::string& name, const char* unit, const char* meaning, int columns, Entity entity, auto values) {
+  const auto add = [&](const std::string& name, const char* unit, const char* meaning, int columns, Entity entity,
+                       auto values) {
     state.push_back({{name, unit, meaning, columns, entity}, std::move(values)});
   };
-  add("jet/steps", "-", "steps done, corrections so far", 1, Entity::run, std::vector<std::int64_t>{run.step, run.iterations});
+  add("jet/steps", "-", "steps done, corrections so far", 1, Entity::run,
+      std::vector<std::int64_t>{run.step, run.iterations});
   add("mesh/corner", "-", "vertices of the triangles", 3, Entity::triangle, corners(flow.mesh));
   add("mesh/position", "m", "places of the vertices", 2, Entity::vertex, flat(flow.mesh.position));
   add("flow/unknown", "-", "velocity and pressure", 3, Entity::vertex, flow.unknown);
   add("surface/height", "m", "height", 1, Entity::surface, run.jet.surface.height);
-  add("past/levels", "-", "time levels", 1, Entity::run, std::vector<std::int64_t>{static_cast<std::int64_t>(run.past.level.size())});
+  add("past/levels", "-", "time levels", 1, Entity::run,
+      std::vector<std::int64_t>{static_cast<std::int64_t>(run.past.level.size())});
   for (std::size_t k = 0; k < run.past.level.size(); ++k) {
     const fluid::TimeLevel& level = run.past.level[k];
     add(level_name(k, "unknown"), "-", "velocity and pressure", 3, Entity::vertex, level.unknown);
-    add(level_name(k, "interstitial"), "m/s", "velocity between the grains", 2, Entity::vertex, flat(level.interstitial));
+    add(level_name(k, "interstitial"), "m/s", "velocity between the grains", 2, Entity::vertex,
+        flat(level.interstitial));
     add(level_name(k, "position"), "m", "places of the vertices", 2, Entity::vertex, flat(level.position));
     add(level_name(k, "porosity"), "-", "share of fluid", 1, Entity::vertex, level.porosity);
   }
   // The factors are made again from their matrix.
   const fluid::FlowSolver& solver = run.solver;
-  add("factor/rate", "1/s", "rate of the scheme that it belongs to", 1, Entity::run, std::vector<double>{solver.factor_rate});
+  add("factor/rate", "1/s", "rate of the scheme that it belongs to", 1, Entity::run,
+      std::vector<double>{solver.factor_rate});
   add("factor/counts", "-", "iterations of the last step, factors made", 1, Entity::run,
       std::vector<std::int64_t>{solver.last_iterations, solver.refactorisations});
   if (!solver.factor.empty()) {
     const Eigen::SparseMatrix<double>& m = solver.factor.matrix();
-    add("factor/outer", "-", "first entry of each column", 1, Entity::run, std::vector<std::int32_t>(m.outerIndexPtr(), m.outerIndexPtr() + m.outerSize() + 1));
-    add("factor/inner", "-", "row of each entry", 1, Entity::run, std::vector<std::int32_t>(m.innerIndexPtr(), m.innerIndexPtr() + m.nonZeros()));
+    add("factor/outer", "-", "first entry of each column", 1, Entity::run,
+        std::vector<std::int32_t>(m.outerIndexPtr(), m.outerIndexPtr() + m.outerSize() + 1));
+    add("factor/inner", "-", "row of each entry", 1, Entity::run,
+        std::vector<std::int32_t>(m.innerIndexPtr(), m.innerIndexPtr() + m.nonZeros()));
     add("factor/value", "-", "entries", 1, Entity::run, std::vector<double>(m.valuePtr(), m.valuePtr() + m.nonZeros()));
   }
   return state;
@@ -134,7 +144,8 @@ void restore(fluid::JetInTime& run, const std::vector<Array>& state) {
   run.iterations = steps[1];
   flow.mesh.position = vectors(array<double>(state, "mesh/position", 2 * vertices));
   flow.unknown = array<double>(state, "flow/unknown", 3 * vertices);
-  run.jet.surface.height = array<double>(state, "surface/height", static_cast<std::ptrdiff_t>(run.jet.surface.vertex.size()));
+  run.jet.surface.height =
+      array<double>(state, "surface/height", static_cast<std::ptrdiff_t>(run.jet.surface.vertex.size()));
 
   const auto levels = static_cast<std::size_t>(array<std::int64_t>(state, "past/levels", 1)[0]);
   run.past.level.clear();
