@@ -72,7 +72,8 @@ std::vector<double> upwinded(const FreeSurface& surface, std::span<const Surface
   Matrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<Matrix> factor(matrix);
-  const Eigen::VectorXd h = factor.solve(right);
+  Eigen::VectorXd h = factor.solve(right);
+  if (surface.pinned) h[0] = right[0];
   return {h.begin(), h.end()};
 }
 
