@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/present/crossing.h"
 #include "runner/present/trend_figure.h"
 #include "runner/store/catalogue.h"
 
@@ -14,6 +17,7 @@ struct TrendArguments {
   std::string study, root = "results", out;
   std::vector<std::string> where;
   present::TrendQuestion question;
+  std::optional<double> crossing;
   present::Format format = present::Format::table;
 };
 
@@ -41,6 +45,7 @@ int trend(const TrendArguments& arguments) {
   fmt::print("{}", present::text(grouped.table, arguments.format, grouped.means));
   std::FILE* const beside = for_people ? stdout : stderr;
   fmt::print(beside, "{}{}", for_people ? "\n" : "", present::trend_remark(found, arguments.format));
+  if (arguments.crossing) fmt::print(beside, "{}", present::crossing_text(found, *arguments.crossing));
   if (!arguments.out.empty()) fmt::print(beside, "{}{}\n", for_people ? "\n" : "", arguments.out);
   return execute::kDone;
 }
@@ -61,6 +66,8 @@ void add_trend(CLI::App& app, Call& call) {
       ->add_option("--effect", arguments.question.effect,
                    "Axis of the study: ratio of the metric to that at the axis' smallest value, on the same bed")
       ->type_name("PATH");
+  command->add_option("--crossing", arguments.crossing, "Tell where the metric passes this value, line by line")
+      ->type_name("VALUE");
   command->add_option("--level", arguments.question.level, "Of the intervals")
       ->capture_default_str()
       ->check(CLI::Range(0.5, 0.9999).description(""))
@@ -74,6 +81,7 @@ void add_trend(CLI::App& app, Call& call) {
       "  runner trend density --of tip_resistance_mean --against bed:solid_fraction\n"
       "  runner trend density --of tip_resistance_mean --against bed:solid_fraction \\\n"
       "      --effect pile.driving.constant.speed -o density.svg\n"
+      "  runner trend die_swell_reynolds --of swell_ratio --against jet.reynolds --crossing 1\n"
       "  runner trend velocity --of tip_resistance_mean --against pile.driving.constant.speed --format csv");
   command->callback([&call] { call = [] { return trend(arguments); }; });
 }
