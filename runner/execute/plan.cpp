@@ -142,7 +142,8 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     histories[i] = disk(c.id);
     const std::string labels = label_line(c.labels), name = labels.empty() ? "case " + short_id(c.id) : labels;
     if (c.scene.jet) {
-      plan.tasks.push_back({Kind::flow, c.id, i, std::nullopt, name, 1, decide({numerics(c.scene), std::nullopt, ""}, histories[i])});
+      plan.tasks.push_back(
+          {Kind::flow, c.id, i, std::nullopt, name, 1, decide({numerics(c.scene), std::nullopt, ""}, histories[i])});
       continue;
     }
     BedState& bed = beds.at(c.bed_id);

@@ -16,8 +16,8 @@ constexpr std::chrono::milliseconds kTick{500};
 /// The pool while it works: the plan's tasks with their states.
 class Pool {
  public:
-  Pool(Plan& plan, const study::Study& study, const Numerics& numerics,
-       const Sharing& sharing, Workers& workers, const StoreView& store, const Watch& watch)
+  Pool(Plan& plan, const study::Study& study, const Numerics& numerics, const Sharing& sharing, Workers& workers,
+       const StoreView& store, const Watch& watch)
       : plan_(plan),
         study_(study),
         numerics_(numerics),
@@ -190,8 +190,8 @@ int threads_for_next(const Sharing& sharing, int running, int busy, int ready, i
   return std::clamp(free / std::min(ready, most - running), 1, useful);
 }
 
-Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics,
-                  const Sharing& sharing, Workers& workers, const StoreView& store, const Watch& watch) {
+Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics, const Sharing& sharing,
+                  Workers& workers, const StoreView& store, const Watch& watch) {
   return Pool(plan, study, numerics, sharing, workers, store, watch).run();
 }
 

@@ -30,8 +30,10 @@ constexpr Headline kFlowHeadlines[] = {{"swell ratio", "-", "swell_ratio", false
 
 std::vector<Headline> headlines_of(const std::vector<CaseResult>& cases) {
   std::vector<Headline> all;
-  if (!std::ranges::all_of(cases, &CaseResult::flow)) all.assign(std::begin(kDriveHeadlines), std::end(kDriveHeadlines));
-  if (std::ranges::any_of(cases, &CaseResult::flow)) all.insert(all.end(), std::begin(kFlowHeadlines), std::end(kFlowHeadlines));
+  if (!std::ranges::all_of(cases, &CaseResult::flow))
+    all.assign(std::begin(kDriveHeadlines), std::end(kDriveHeadlines));
+  if (std::ranges::any_of(cases, &CaseResult::flow))
+    all.insert(all.end(), std::begin(kFlowHeadlines), std::end(kFlowHeadlines));
   return all;
 }
 

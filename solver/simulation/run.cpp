@@ -34,7 +34,8 @@ struct FramePlan {
   double end;    ///< [s]
   double depth;  ///< asked [m]
 };
-std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpec& record, const pile::PileSpec& pile, double end) {
+std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpec& record, const pile::PileSpec& pile,
+                                   double end) {
   std::vector<FramePlan> plan;
   const double above = sim.surface - sim.pile->start;
   for (const double depth : record.frames) {
@@ -59,8 +60,13 @@ std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
 std::vector<Part> parts(const scene::SceneSpec& scene) {
   if (scene.jet) {
     const std::string jet = "the scene is a jet of fluid";
-    return {{"grains", false, jet}, {"walls", false, jet}, {"pile", false, jet}, {"restitution", false, jet},
-            {"mesh", true, "the fluid lives on it"}, {"fluid", true, jet}, {"free_surface", true, "the jet finds its own shape"}};
+    return {{"grains", false, jet},
+            {"walls", false, jet},
+            {"pile", false, jet},
+            {"restitution", false, jet},
+            {"mesh", true, "the fluid lives on it"},
+            {"fluid", true, jet},
+            {"free_surface", true, "the jet finds its own shape"}};
   }
   const std::string dry = "the scene is dry: \"fluid\" is null";
   return {{"grains", true, "the bed has " + std::to_string(scene.bed.grains.count) + " grains"},
@@ -73,8 +79,9 @@ std::vector<Part> parts(const scene::SceneSpec& scene) {
           {"free_surface", false, dry}};
 }
 
-RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed, const Execution& execution,
-              const std::vector<Array>& resume_from, const std::vector<Record>& records_so_far, const RunHooks& hooks) {
+RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed,
+              const Execution& execution, const std::vector<Array>& resume_from,
+              const std::vector<Record>& records_so_far, const RunHooks& hooks) {
   if (!scene.pile) throw std::invalid_argument("run: the scene has no pile");
   Simulation sim = build(scene, bed, execution);
   if (!resume_from.empty()) restore(sim, resume_from);
@@ -93,7 +100,8 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   while (result.outcome == Outcome::completed && sim.clock.time() < end - half) {
     // A state to go back to; windows are no part of it, so it is taken while none is open.
     if (!trial || (windows.empty() && sim.clock.step % kTrialSteps == 0)) trial.emplace(sim);
-    while (next_frame + windows.size() < frames.size() && frames[next_frame + windows.size()].begin <= sim.clock.time() + half)
+    while (next_frame + windows.size() < frames.size() &&
+           frames[next_frame + windows.size()].begin <= sim.clock.time() + half)
       windows.emplace_back(frames[next_frame + windows.size()].depth);
 
     const StepReport report = step(sim, !windows.empty());
@@ -114,7 +122,8 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
       ++next_frame;
     }
 
-    if (!last && std::floor(sim.pile->travel / record.travel) <= std::floor(sim.gathering.travel / record.travel)) continue;
+    if (!last && std::floor(sim.pile->travel / record.travel) <= std::floor(sim.gathering.travel / record.travel))
+      continue;
     records.push_back(take_record(sim));
     if (hooks.record) hooks.record(records.back());
     if (hooks.progress) hooks.progress({sim.clock.time(), std::min(1.0, sim.clock.time() / end), depth(sim)});
