@@ -104,7 +104,6 @@ class Expander {
     if (excluded) return;
     ++kept_;
 
-    check_jet(draft);
     const bool all_used = check_use(draft, used);
     for (const auto& problem : draft.problems) collector_.add(problem);
     std::optional<double> bed_height;
@@ -158,16 +157,6 @@ class Expander {
     }
     read_spec(draft.tree, draft.scene, draft.problems);
     return draft;
-  }
-
-  /// What a study writes beside a jet would be lost on it.
-  void check_jet(const Draft& draft) {
-    if (!draft.scene.jet) return;
-    for (const char* part : kNotOfAJet) {
-      const Value* written = draft.tree.find(part);
-      if (!written || written->kind == Value::Kind::null) continue;
-      collector_.add_once_at({pointer(written->place), "is not used: the scene is a jet", "nothing here, or jet null", ""});
-    }
   }
 
   /// An axis that changes nothing would make equal cases under different names: false, and told.
@@ -312,6 +301,7 @@ class Expander {
       collector_.add({"/exclude", fmt::format("leaves none of {} cases", total), "at least one case", ""});
       return;
     }
+    if (jets_ == kept_) report_unused_beside_jets();
     for (const Assignment& assignment : grammar_.set) {
       if (used_settings_.contains(&assignment)) continue;
       collector_.add(
@@ -327,6 +317,15 @@ class Expander {
     }
     for (std::size_t i = 0; i < excluded_.size(); ++i) {
       if (excluded_[i] == 0) report_idle(grammar_.exclude[i]);
+    }
+  }
+
+  /// Where every case is a jet, what the base says of beds and piles is lost.
+  void report_unused_beside_jets() {
+    for (const char* part : kNotOfAJet) {
+      const Value* written = grammar_.base.find(part);
+      if (!written || written->kind == Value::Kind::null) continue;
+      collector_.add({pointer(written->place), "is not used: the scene is a jet", "nothing here, or jet null", ""});
     }
   }
 

@@ -74,6 +74,11 @@ TEST(Canonical, AnySceneComesBackFromItsJson) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
     scene::SceneSpec scene;
     AnyValue(seed).fill(scene);
+    if (scene.jet) {  // which is handed over alone
+      scene::SceneSpec alone;
+      alone.jet = scene.jet;
+      scene = alone;
+    }
     if (!scene.bed.file.empty()) scene.bed.file_content = sha256(scene.bed.file);
     const std::string text = to_json(scene);
     const scene::SceneSpec back = scene_from_json(text);
@@ -81,6 +86,18 @@ TEST(Canonical, AnySceneComesBackFromItsJson) {
     ASSERT_EQ(to_json(back), text);
     ASSERT_EQ(id_of(back), id_of(scene));
   }
+}
+
+TEST(Canonical, AJetIsKnownByItselfAlone) {
+  scene::SceneSpec scene;
+  scene.jet.emplace();
+  const std::string text = canonical_text(scene, "");
+  EXPECT_EQ(text,
+            R"({"jet":{"capillary":null,"downstream":20,"geometry":"axisymmetric","growth":0.15,"largest_size":0.2,)"
+            R"("lip_size":0.01,"method":{"steady":{}},"reynolds":24,"upstream":3.5}})");
+  scene.bed.seed = 7;
+  scene.contact.step = 1e-4;
+  EXPECT_EQ(canonical_text(scene, ""), text);
 }
 
 TEST(Canonical, AnyRecordComesBackFromItsJson) {
