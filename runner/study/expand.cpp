@@ -345,7 +345,8 @@ class Expander {
   Expansion result_;
   std::vector<std::size_t> axis_indices_;    ///< the combination at hand, an index into each axis
   std::vector<std::size_t> excluded_, met_;  ///< cases that each exclude and each when matched
-  std::size_t kept_ = 0, recorded_ = 0, jets_ = 0;  ///< cases that are not excluded; of them those with a pile, and jets
+  std::size_t kept_ = 0, recorded_ = 0,
+              jets_ = 0;  ///< cases that are not excluded; of them those with a pile, and jets
   std::set<const Assignment*> used_settings_;
   std::map<std::tuple<std::string, double, double>, std::optional<GrainFile>> grain_files_;
   std::map<std::string, std::pair<base::Problem, std::size_t>> record_problems_;  ///< by pointer, with their cases

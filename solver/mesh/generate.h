@@ -26,7 +26,4 @@ struct NoMesh : std::runtime_error {
 /// std::runtime_error with Gmsh's words when it cannot.
 TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size);
 
-/// Name and version of the mesher, for a run's provenance.
-std::string mesher();
-
 }  // namespace seapile::mesh

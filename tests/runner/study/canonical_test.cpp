@@ -177,7 +177,8 @@ TEST(Canonical, AFieldAddedLaterIsLeftOutWhileItHoldsItsDefault) {
   scene.contact.method = grains::NonSmoothMethod{};
   scene.contact.solver = grains::Solver::brute_force;
   const std::string text = canonical_text(scene, "bed");
-  EXPECT_NE(text.find(R"("method":{"nonsmooth":{"correction":0.001,"sweeps":100,"tolerance":0}})"), std::string::npos) << text;
+  EXPECT_NE(text.find(R"("method":{"nonsmooth":{"correction":0.001,"sweeps":100,"tolerance":0}})"), std::string::npos)
+      << text;
   EXPECT_NE(text.find(R"("solver":"brute_force")"), std::string::npos) << text;
   EXPECT_EQ(scene_from_json(to_json(scene)), scene);
 }
