@@ -7,7 +7,8 @@
 namespace seapile::simulation {
 
 /// The water at one time: a mesh, what its vertices hold, and the free surface. Vertex arrays have one row per vertex, triangle
-/// arrays one per triangle, surface arrays one per vertex of the surface, from the left to the right.
+/// arrays one per triangle, surface arrays one per vertex of the surface, from the left to the right. There is a triangle, and
+/// rows of vertices are std::int64_t.
 struct FlowFrame {
   double time = 0;  ///< [s]
 

@@ -157,8 +157,15 @@ TEST(Hdf5Writer, RefusesWhatDoesNotFit) {
   EXPECT_THROW(attempt([&](auto& w) { w.append("/data", std::span<const double>(row).first(1)); }), std::logic_error);
   EXPECT_THROW(attempt([&](auto& w) { w.append("/data", std::span<const float>()); }), std::logic_error);
   EXPECT_THROW(attempt([&](auto& w) { w.append("/other", std::span<const double>(row)); }), std::logic_error);
-  EXPECT_THROW(attempt([&](auto& w) { w.window("/part", "/data", 0, {1, 3}, 0); }), std::logic_error);
-  EXPECT_THROW(attempt([&](auto& w) { w.window("/part", "/data", 1, {2, 2}, 0); }), std::logic_error);
+  const auto attempt_window = [&](std::uint64_t first, Extents extents) {
+    attempt([&](auto& w) {
+      for (int i = 0; i < 2; ++i) w.append("/data", std::span<const double>(row));
+      w.window("/part", "/data", first, extents, 0);
+    });
+  };
+  EXPECT_NO_THROW(attempt_window(1, {1, 2}));
+  EXPECT_THROW(attempt_window(0, {1, 3}), std::logic_error);
+  EXPECT_THROW(attempt_window(1, {2, 2}), std::logic_error);
 }
 
 TEST(Hdf5Reader, RefusesAnotherTypeAndMissingThings) {

@@ -104,7 +104,7 @@ FlowFrame flow_frame(std::size_t index) {
 }
 
 std::filesystem::path write_flow(const std::filesystem::path& root) {
-  const std::filesystem::path folder = case_folder(root, flow_header().case_id) / "0001";
+  std::filesystem::path folder = case_folder(root, flow_header().case_id) / "0001";
   RunWriter writer(folder, flow_header());
   for (std::size_t k = 0; k < kFlowFrames; ++k) {
     writer.add(flow_frame(k));
