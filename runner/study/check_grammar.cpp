@@ -14,7 +14,8 @@ using base::Problems;
 using Kind = Value::Kind;
 
 constexpr const char* kTwoForms =
-    R"({"metric": name, "reference": "reference/name.csv"} or {"metric": name, "value": 1, "tolerance": 0.1, "source": text})";
+    R"({"metric": name, "reference": "reference/name.csv"} or )"
+    R"({"metric": name, "value": 1, "tolerance": 0.1, "source": text})";
 
 /// A text that says something.
 void read_words(const Value& value, std::string& words, Problems& problems) {

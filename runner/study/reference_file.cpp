@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "runner/study/csv.h"
-#include "runner/study/nearest.h"
 #include "runner/study/text_file.h"
 #include "runner/study/unit.h"
 
