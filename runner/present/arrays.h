@@ -8,7 +8,7 @@
 
 #include "runner/store/store_error.h"
 #include "solver/base/vec2.h"
-#include "solver/simulation/array.h"
+#include "solver/simulation/frame.h"
 
 namespace seapile::present {
 

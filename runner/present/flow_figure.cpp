@@ -145,10 +145,9 @@ void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
         const auto v = velocity_at({x, y}, mesh, velocity, seen[k]);
         if (!v) continue;
         const Vec2 middle{x, y}, half = (figure.length / figure.full / 2) * *v;
-        const Vec2 tail = middle - half, head = middle + half;
-        if (sees(panel.view, tail) && sees(panel.view, head)) {
-          panel.arrows.push_back({tail, head, norm(*v) / figure.full});
-        }
+        const auto fits = [&](Vec2 end) { return sees(panel.view, end) && velocity_at(end, mesh, velocity, seen[k]); };
+        if (!fits(middle - half) || !fits(middle + half)) continue;
+        panel.arrows.push_back({middle - half, middle + half, norm(*v) / figure.full});
       }
     }
   }

@@ -44,7 +44,7 @@ struct FlowPanel {
   std::vector<DrawnEdge> boundary;    ///< of one triangle, but for the free surface
   std::vector<DrawnEdge> surface;     ///< the free surface
   std::vector<DrawnTriangle> faces;   ///< velocity
-  std::vector<DrawnVelocity> arrows;  ///< velocity: middles on the grid; none is cut off by the view
+  std::vector<DrawnVelocity> arrows;  ///< velocity: middles on the grid; as a whole in the view and in the fluid
 };
 
 struct FlowFigure {

@@ -115,6 +115,17 @@ TEST(FlowFigure, NoArrowIsCutOffByTheWindow) {
   }
 }
 
+TEST(FlowFigure, NoArrowLeavesTheFluid) {
+  FlowOfRun run = straight_jet();
+  set_velocity(run, [](Vec2) { return Vec2{0, 1}; });
+  // Arrows of 0.18 H: those whose middles are 0.04 H below the surface would reach into the air.
+  auto& position = std::get<std::vector<double>>(run.frame.vertices[0].values);
+  for (std::size_t k = 1; k < position.size(); k += 2) position[k] *= 0.94;
+  const auto arrows = flow_figure(FlowFigureKind::velocity, {run}, kAll).panels.at(0).arrows;
+  EXPECT_EQ(arrows.size(), 15u * 4u);
+  for (const DrawnVelocity& arrow : arrows) EXPECT_LT(arrow.head.y, 0.94);
+}
+
 TEST(FlowFigure, FluidAtRestHasNoArrows) {
   FlowOfRun run = straight_jet();
   set_velocity(run, [](Vec2) { return Vec2{}; });
