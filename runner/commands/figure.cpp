@@ -8,6 +8,7 @@
 
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/present/flow_drawing.h"
 #include "runner/present/frame_drawing.h"
 #include "runner/store/catalogue.h"
 #include "runner/study/study.h"
@@ -19,18 +20,21 @@ namespace fs = std::filesystem;
 
 constexpr double kDepthTolerance = 1e-3;  ///< [m] between the depth that is asked for and that of a frame
 
+constexpr double kMostUneven = 30;  ///< of a window's edges; a whole jet is 20 times as long as high
+
 struct FigureArguments {
-  present::FigureKind kind = present::FigureKind::bed;
-  std::string kind_name;
+  std::string kind;
   std::string run, second;
   std::optional<double> depth;
   std::string window, out, root = "results";
 };
 
-const std::map<std::string, present::FigureKind> kKinds = {{"bed", present::FigureKind::bed},
-                                                           {"forces", present::FigureKind::forces},
-                                                           {"stress", present::FigureKind::stress},
-                                                           {"velocity", present::FigureKind::velocity}};
+const std::map<std::string, present::FigureKind> kDriveKinds = {{"bed", present::FigureKind::bed},
+                                                                {"forces", present::FigureKind::forces},
+                                                                {"stress", present::FigureKind::stress},
+                                                                {"velocity", present::FigureKind::velocity}};
+const std::map<std::string, present::FlowFigureKind> kFlowKinds = {{"mesh", present::FlowFigureKind::mesh},
+                                                                   {"velocity", present::FlowFigureKind::velocity}};
 
 /// A number, and nothing behind it.
 double number_in(const std::string& text) {
@@ -51,11 +55,13 @@ std::optional<present::View> view_of(const std::string& window) {
   const bool is_complete =
       edges.size() == 4 && std::ranges::all_of(edges, [](double edge) { return std::isfinite(edge); });
   if (!is_complete || edges[0] >= edges[1] || edges[2] >= edges[3]) {
-    throw UsageError("--window: x0,x1,y0,y1 in metres, with x0 < x1 and y0 < y1");
+    throw UsageError("--window: x0,x1,y0,y1 in metres (of a flow: in H), with x0 < x1 and y0 < y1");
   }
   const present::View view{edges[0], edges[1], edges[2], edges[3]};
   const double longer = std::max(view.width(), view.height()), shorter = std::min(view.width(), view.height());
-  if (longer > 20 * shorter) throw UsageError("--window: one edge is more than 20 times as long as the other");
+  if (longer > kMostUneven * shorter) {
+    throw UsageError(fmt::format("--window: one edge is more than {:g} times as long as the other", kMostUneven));
+  }
   return view;
 }
 
@@ -91,21 +97,76 @@ std::string title_of(const store::Catalogue& catalogue, const fs::path& folder, 
   return "case " + id;
 }
 
-/// A run and its frame; without a depth, its last one, whose depth is then the one for the runs that follow.
-present::FrameOfRun load(const store::Catalogue& catalogue, const fs::path& folder, const fs::path& root,
-                         std::optional<double>& depth) {
-  const store::Manifest manifest = store::read_manifest(folder);
+/// A run that was asked for.
+struct Asked {
+  fs::path folder;
+  store::Manifest manifest;
+  std::string id;     ///< shortened
+  std::string title;  ///< what tells it from others
+};
+
+/// The run whose case's id begins so; absent when there is none.
+std::optional<Asked> find(const store::Catalogue& catalogue, const std::string& prefix) {
+  const fs::path folder = usage_checked([&] { return catalogue.find(prefix); });
+  if (folder.empty()) return std::nullopt;
+  store::Manifest manifest = store::read_manifest(folder);
   const std::string id = manifest.header.case_id.substr(0, 10);
-  if (manifest.header.kind != "drive") throw UsageError(fmt::format("{} is a bed: nothing is driven into it", id));
-  const std::vector<double> asked = store::asked_depths(folder);
-  if (asked.empty()) throw UsageError(fmt::format("{} has no frames", id));
+  return Asked{folder, std::move(manifest), id, title_of(catalogue, folder, id)};
+}
+
+/// Throws UsageError when a run is not of a kind that has this figure.
+void check_kind(const Asked& run, const std::string& figure) {
+  const std::string& kind = run.manifest.header.kind;
+  if (kind == "bed") throw UsageError(fmt::format("{} is a bed: nothing is driven into it", run.id));
+  if (kind == "flow" && !kFlowKinds.contains(figure)) {
+    throw UsageError(fmt::format("{} is a flow: its figures are mesh and velocity", run.id));
+  }
+  if (kind == "drive" && !kDriveKinds.contains(figure)) {
+    throw UsageError(fmt::format("{} is a drive: its figures are bed, forces, stress and velocity", run.id));
+  }
+}
+
+/// A run and its frame; without a depth, its last one, whose depth is then the one for the runs that follow.
+present::FrameOfRun load_drive(const Asked& run, const fs::path& root, std::optional<double>& depth) {
+  const std::vector<double> asked = store::asked_depths(run.folder);
+  if (asked.empty()) throw UsageError(fmt::format("{} has no frames", run.id));
   if (!depth) depth = asked.back();
-  return {title_of(catalogue, folder, id), study::scene_from_json(manifest.header.scene_json),
-          surface_of_bed(root, manifest.header), store::read_frame(folder, frame_at(*depth, asked, id))};
+  return {run.title, study::scene_from_json(run.manifest.header.scene_json), surface_of_bed(root, run.manifest.header),
+          store::read_frame(run.folder, frame_at(*depth, asked, run.id))};
+}
+
+/// A flow and its last frame.
+present::FlowOfRun load_flow(const Asked& run) {
+  const std::size_t frames = store::flow_frame_count(run.folder);
+  if (frames == 0) throw UsageError(fmt::format("{} has no frames", run.id));
+  return {run.title, study::scene_from_json(run.manifest.header.scene_json),
+          store::read_flow_frame(run.folder, frames - 1)};
+}
+
+/// The bytes of the picture.
+std::string draw(const FigureArguments& arguments, const std::vector<Asked>& asked, present::PictureFormat format,
+                 const std::optional<present::View>& view) {
+  for (const Asked& run : asked) check_kind(run, arguments.kind);
+  const auto is_flow = [](const Asked& run) { return run.manifest.header.kind == "flow"; };
+  if (std::ranges::none_of(asked, is_flow)) {
+    std::vector<present::FrameOfRun> runs;
+    std::optional<double> depth = arguments.depth;
+    for (const Asked& run : asked) runs.push_back(load_drive(run, arguments.root, depth));
+    const auto kind = kDriveKinds.at(arguments.kind);
+    return present::picture_of(usage_checked([&] { return present::frame_figure(kind, runs, view); }), format);
+  }
+  if (!std::ranges::all_of(asked, is_flow)) {
+    throw UsageError(fmt::format("{} and {}: a drive and a flow have no scale in common", asked[0].id, asked[1].id));
+  }
+  if (arguments.depth) throw UsageError(fmt::format("--depth: {} is a flow; its last frame is drawn", asked[0].id));
+  std::vector<present::FlowOfRun> runs;
+  for (const Asked& run : asked) runs.push_back(load_flow(run));
+  const auto kind = kFlowKinds.at(arguments.kind);
+  return present::picture_of(usage_checked([&] { return present::flow_figure(kind, runs, view); }), format);
 }
 
 int figure(const FigureArguments& arguments) {
-  const fs::path out = arguments.out.empty() ? arguments.kind_name + ".svg" : arguments.out;
+  const fs::path out = arguments.out.empty() ? arguments.kind + ".svg" : arguments.out;
   const auto format = present::picture_format(out);
   if (!format) throw UsageError(fmt::format("{}: a picture's name ends in .svg or .png", out.string()));
   const auto view = view_of(arguments.window);
@@ -113,19 +174,16 @@ int figure(const FigureArguments& arguments) {
   const auto catalogue = store::Catalogue::open_read_only(arguments.root);
   std::vector<std::string> prefixes = {arguments.run};
   if (!arguments.second.empty()) prefixes.push_back(arguments.second);
-  std::vector<fs::path> folders;
+  std::vector<Asked> asked;
   for (const std::string& prefix : prefixes) {
-    folders.push_back(usage_checked([&] { return catalogue.find(prefix); }));
-    if (!folders.back().empty()) continue;
-    fmt::print(stderr, "no case has an id that begins with {}\n", prefix);
-    return execute::kNothingMatched;
+    std::optional<Asked> run = find(catalogue, prefix);
+    if (!run) {
+      fmt::print(stderr, "no case has an id that begins with {}\n", prefix);
+      return execute::kNothingMatched;
+    }
+    asked.push_back(std::move(*run));
   }
-  std::vector<present::FrameOfRun> runs;
-  std::optional<double> depth = arguments.depth;
-  for (const fs::path& folder : folders) runs.push_back(load(catalogue, folder, arguments.root, depth));
-
-  const auto figure = usage_checked([&] { return present::frame_figure(arguments.kind, runs, view); });
-  const std::string bytes = present::picture_of(figure, *format);
+  const std::string bytes = draw(arguments, asked, *format, view);
   try {
     store::write_text(out, bytes);
   } catch (const store::StoreError& error) {
@@ -139,24 +197,27 @@ int figure(const FigureArguments& arguments) {
 
 void add_figure(CLI::App& app, Call& call) {
   static FigureArguments arguments;
-  CLI::App* command = app.add_subcommand("figure", "Draw a frame of a drive, or of two side by side");
-  command->add_option("KIND", arguments.kind_name, "bed, forces, stress or velocity")
+  CLI::App* command = app.add_subcommand("figure", "Draw a frame of a drive or of a flow, or of two together");
+  command
+      ->add_option("KIND", arguments.kind, "Of a drive: bed, forces, stress or velocity; of a flow: mesh or velocity")
       ->required()
       ->type_name("")
       ->check([](const std::string& word) {
-        return kKinds.contains(word)
+        return kDriveKinds.contains(word) || kFlowKinds.contains(word)
                    ? std::string()
-                   : "there is no figure \"" + word + "\"; there are bed, forces, stress and velocity";
+                   : "there is no figure \"" + word + "\"; there are bed, forces, stress, velocity and mesh";
       });
   command->add_option("RUN", arguments.run, "Case id, or how it begins")->required()->type_name("");
-  command->add_option("RUN2", arguments.second, "Another one, drawn beside it on the same scales")->type_name("");
+  command->add_option("RUN2", arguments.second, "Another one of its kind, drawn beside or below it on the same scales")
+      ->type_name("");
   command->add_option("--depth", arguments.depth, "Depth d of the tip [m]; default: the last frame of the first run");
-  command->add_option("--window", arguments.window, "What is seen [m]; default: see below")->type_name("X0,X1,Y0,Y1");
+  command->add_option("--window", arguments.window, "What is seen [m]; of a flow [H]; default: see below")
+      ->type_name("X0,X1,Y0,Y1");
   command->add_option("-o,--out", arguments.out, "Picture to write, .svg or .png; default: KIND.svg")
       ->type_name("FILE");
   add_store_option(*command, arguments.root);
   command->footer(
-      "Kinds:\n"
+      "Kinds, of a drive:\n"
       "  bed       grains in two tones that change with the height at which they lay before the drive\n"
       "  forces    a line per contact, as wide as its normal force is large\n"
       "  stress    an ellipse per cell, its semi-axes the principal stresses, coloured by the major one\n"
@@ -165,16 +226,19 @@ void add_figure(CLI::App& app, Call& call) {
       "x is 0 in the middle of the box, y is 0 at its base. A frame has to have been asked for within 1 mm of "
       "--depth.\n"
       "\n"
+      "Kinds, of a flow, always in its last frame:\n"
+      "  mesh      the triangles' edges, the free surface and the rest of the boundary\n"
+      "  velocity  colours of the speed, linear in each triangle, and arrows on a regular grid\n"
+      "Without --window, they show from 2 H before the lip to 4 H behind it, H being the die's radius or half gap.\n"
+      "x is 0 at the lip, y is 0 on the axis.\n"
+      "\n"
       "Examples:\n"
       "  runner figure forces 1a2b3c4d5e --depth 0.6 -o forces.svg\n"
       "  runner figure stress 1a2b3c4d5e 6f7a8b9c0d --depth 0.6 -o stress.png\n"
-      "  runner figure bed 1a2b3c4d5e --window -1,1,0,2.2");
-  command->callback([&call] {
-    call = [] {
-      arguments.kind = kKinds.at(arguments.kind_name);
-      return figure(arguments);
-    };
-  });
+      "  runner figure bed 1a2b3c4d5e --window -1,1,0,2.2\n"
+      "  runner figure mesh 9c4cddb476 --window -0.2,0.4,0.7,1.1 -o mesh.svg\n"
+      "  runner figure velocity 9c4cddb476 212fdcfbb0 -o velocity.png");
+  command->callback([&call] { call = [] { return figure(arguments); }; });
 }
 
 }  // namespace seapile::commands

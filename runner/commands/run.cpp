@@ -23,16 +23,21 @@ struct RunArguments {
   bool dry_run = false;
 };
 
+/// A picture for each kind of case that a study has: of drives STUDY.svg, of flows STUDY_surface.svg.
 void draw(const study::Study& study, const std::vector<present::CaseResult>& results, const fs::path& root) {
-  const present::Figure figure = present::resistance_figure(study.question, results);
-  if (figure.groups.empty()) return;
-  const fs::path svg = root / "figures" / (study.name + ".svg");
-  try {
-    present::draw(figure, svg);
-    fmt::print("\n{}\n", svg.string());
-  } catch (const store::StoreError& error) {
-    fmt::print(stderr, "{}\n", error.what());  // The results stand without their picture.
-  }
+  const auto draw_as = [&](const std::string& name, const auto& figure) {
+    const fs::path svg = root / "figures" / (name + ".svg");
+    try {
+      present::draw(figure, svg);
+      fmt::print("\n{}\n", svg.string());
+    } catch (const store::StoreError& error) {
+      fmt::print(stderr, "{}\n", error.what());  // The results stand without their picture.
+    }
+  };
+  const auto resistances = present::resistance_figure(study.question, results);
+  if (!resistances.groups.empty()) draw_as(study.name, resistances);
+  const auto surfaces = present::surface_figure(study.question, results);
+  if (!surfaces.curves.empty()) draw_as(study.name + "_surface", surfaces);
 }
 
 int run(const RunArguments& arguments) {

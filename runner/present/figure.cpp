@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // In pixels; the picture is drawn for a page's or a screen's column.
-constexpr int kWidth = 760, kHeight = 960, kTitleLine = 25, kNoteLine = 22, kSide = 28;
-constexpr std::size_t kTitleCharacters = 66, kMostTitleLines = 3;
+constexpr int kWidth = 760, kHeight = 960;
+constexpr std::size_t kTitleCharacters = 66;
 
 constexpr std::string_view kBandAlpha = "c4";  // nearly transparent: two bands may lie over each other
 
@@ -96,23 +96,9 @@ std::string note(const Figure& figure) {
 
 /// Title, note, axes and legend.
 std::string frame_of(const Figure& figure, double deepest, bool tension) {
-  std::string script;
-  std::vector<std::string> title = wrapped(figure.title, kTitleCharacters);
-  if (title.size() > kMostTitleLines) {
-    title.resize(kMostTitleLines);
-    title.back() += " …";
-  }
-  int top = kSide, label = 1;
-  const auto put = [&](const std::string& line, int height, const char* font, const char* colour) {
-    script += fmt::format("set label {} {} at screen {:.4f},{:.4f} left noenhanced font '{}' tc rgb '#{}'\n", label++,
-                          quoted(line), static_cast<double>(kSide) / kWidth, 1 - static_cast<double>(top) / kHeight,
-                          font, colour);
-    top += height;
-  };
-  for (const std::string& line : title) put(line, kTitleLine, "Helvetica:Bold,18", "1a1a1a");
-  put(note(figure), kNoteLine, "Helvetica,14", "666666");
+  auto [script, top] = heading(figure.title, note(figure), kWidth, kHeight, kTitleCharacters);
   script += fmt::format("set tmargin at screen {:.4f}\n", 1 - static_cast<double>(top + 66) / kHeight);
-  script += fmt::format("set bmargin at screen {:.4f}\n", static_cast<double>(kSide) / kHeight);
+  script += fmt::format("set bmargin at screen {:.4f}\n", static_cast<double>(kHeadingSide) / kHeight);
   script += fmt::format("set lmargin at screen {:.4f}\n", 92.0 / kWidth);
   script += fmt::format("set rmargin at screen {:.4f}\n", 1 - 36.0 / kWidth);
   script +=
@@ -193,11 +179,7 @@ std::string gnuplot_script(const Figure& figure) {
       }
     }
   }
-  std::string script = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n",
-      kWidth, kHeight);
-  script += frame_of(figure, deepest, lowest < -0.02 * highest);
+  std::string script = frame_of(figure, deepest, lowest < -0.02 * highest);
 
   // Bands and faint lines first, so that no strong line lies under one of them.
   std::string blocks, bands, faint, strong;

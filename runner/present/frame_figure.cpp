@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "runner/present/arrays.h"
 #include "runner/present/axis.h"
 #include "runner/store/store_error.h"
 #include "solver/pile/pile.h"
@@ -21,18 +22,6 @@ constexpr int kMostLayers = 25;
 constexpr double kWidestLine = 0.8;   ///< of the largest force, in mean grain diameters
 constexpr double kLongestAxis = 1.0;  ///< semi-axis of the largest stress, in cells
 constexpr double kPileArrow = 1.5;    ///< the pile's speed as an arrow, in mean grain diameters
-
-template <class T>
-const std::vector<T>& values(const std::vector<simulation::Array>& arrays, const char* name) {
-  const auto found = std::ranges::find(arrays, name, [](const simulation::Array& array) { return array.info.name; });
-  const auto* list = found == arrays.end() ? nullptr : std::get_if<std::vector<T>>(&found->values);
-  if (list == nullptr) {
-    throw store::StoreError(store::StoreError::Kind::damaged, fmt::format("the frame has no array {}", name));
-  }
-  return *list;
-}
-
-Vec2 vec2(const std::vector<double>& list, std::size_t row) { return {list.at(2 * row), list.at(2 * row + 1)}; }
 
 View box_of(const FrameOfRun& run) {
   const scene::DomainSpec& domain = run.scene.bed.domain;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runner/present/axis.h"
+#include "runner/present/colour_bar.h"
 #include "runner/present/colour_map.h"
 #include "runner/present/frame_marks.h"
 #include "runner/present/lettering.h"
@@ -14,8 +15,7 @@
 namespace seapile::present {
 namespace {
 
-constexpr double kBarWidth = 14, kShortestBar = 80, kTallestBar = 240;
-constexpr int kBarStops = 30;  ///< between which colours are straight
+constexpr double kShortestBar = 80, kTallestBar = 240;
 
 /// The largest of 1, 2 or 5 times a power of ten that is not above a value > 0.
 double nice_below(double value) {
@@ -32,35 +32,6 @@ struct Prefix {
 
 Prefix pressure_prefix(double full) {
   return full >= 1e6 ? Prefix{"MPa", 1e6} : full >= 1e3 ? Prefix{"kPa", 1e3} : Prefix{"Pa", 1};
-}
-
-/// Colours from 0 at the bottom to `full` at the top, with ticks; returns its lower end on the canvas.
-double draw_bar(cairo_t* context, double x, double y, double height, double full, bool more_above) {
-  cairo_pattern_t* colours = cairo_pattern_create_linear(0, y + height, 0, y);
-  for (int k = 0; k <= kBarStops; ++k) {
-    const double share = static_cast<double>(k) / kBarStops;
-    const Colour colour = colour_of(share);
-    cairo_pattern_add_color_stop_rgb(colours, share, colour.red, colour.green, colour.blue);
-  }
-  cairo_set_source(context, colours);
-  cairo_pattern_destroy(colours);
-  cairo_rectangle(context, x, y, kBarWidth, height);
-  cairo_fill(context);
-  cairo_set_source_rgb(context, 0.3, 0.3, 0.3);
-  cairo_set_line_width(context, 0.7);
-  cairo_rectangle(context, x, y, kBarWidth, height);
-  cairo_stroke(context);
-  const auto marks = ticks(0, full, nice_step(full, std::max(2, static_cast<int>(height / 30))));
-  for (const Tick& tick : marks) {
-    const double at = y + height * (1 - tick.value / full);
-    cairo_move_to(context, x + kBarWidth, at);
-    cairo_line_to(context, x + kBarWidth + 4, at);
-    cairo_set_source_rgb(context, 0.3, 0.3, 0.3);
-    cairo_stroke(context);
-    const bool last = more_above && &tick == &marks.back();
-    write(context, x + kBarWidth + 7, at + 3.7, (last ? "≥ " : "") + tick.text, {10.5});
-  }
-  return y + height;
 }
 
 void draw_force_legend(cairo_t* context, const FrameFigure& figure, double x, double y, double scale) {

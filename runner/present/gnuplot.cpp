@@ -27,6 +27,9 @@ constexpr std::string_view kColours[] = {"0072B2", "D55E00", "009E73", "CC79A7",
 constexpr std::size_t kColourCount = std::size(kColours);
 constexpr std::string_view kDashes[] = {"solid", "(12,5)", "(3,4)"};
 
+constexpr int kTitleLine = 25, kNoteLine = 22;  // in pixels
+constexpr std::size_t kMostTitleLines = 3;
+
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
     text.replace(at, from.size(), to);
@@ -115,6 +118,30 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
 
 Style style_of(std::size_t group) {
   return {kColours[group % kColourCount], kDashes[std::min(group / kColourCount, std::size(kDashes) - 1)]};
+}
+
+Heading heading(const std::string& title, const std::string& note, int width, int height, std::size_t most) {
+  Heading result;
+  result.script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n",
+      width, height);
+  result.bottom = kHeadingSide;
+  std::vector<std::string> lines = wrapped(title, most);
+  if (lines.size() > kMostTitleLines) {
+    lines.resize(kMostTitleLines);
+    lines.back() += " …";
+  }
+  int label = 1;
+  const auto put = [&](const std::string& line, int line_height, const char* font, const char* colour) {
+    result.script += fmt::format("set label {} {} at screen {:.4f},{:.4f} left noenhanced font '{}' tc rgb '#{}'\n",
+                                 label++, quoted(line), static_cast<double>(kHeadingSide) / width,
+                                 1 - static_cast<double>(result.bottom) / height, font, colour);
+    result.bottom += line_height;
+  };
+  for (const std::string& line : lines) put(line, kTitleLine, "Helvetica:Bold,18", "1a1a1a");
+  put(note, kNoteLine, "Helvetica,14", "666666");
+  return result;
 }
 
 void draw_with_gnuplot(const std::string& script, const fs::path& svg) {

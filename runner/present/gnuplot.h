@@ -22,6 +22,16 @@ struct Style {
 };
 Style style_of(std::size_t group);
 
+/// The beginning of a script: the terminal, and from the picture's upper edge a title and a note in words. Lengths in
+/// pixels.
+struct Heading {
+  std::string script;
+  int bottom = 0;  ///< how far down it reaches
+};
+inline constexpr int kHeadingSide = 28;  ///< from the left and from the upper edge
+/// `title`: of any length; broken at `most` characters, and cut when it is longer than a few lines.
+Heading heading(const std::string& title, const std::string& note, int width, int height, std::size_t most);
+
 /// Runs a script that draws one picture to standard output; the file appears when it is complete. Throws
 /// store::StoreError.
 void draw_with_gnuplot(const std::string& script, const std::filesystem::path& svg);

@@ -59,6 +59,12 @@ std::optional<store::Manifest> manifest_of(const std::filesystem::path& run_fold
   return run_folder.empty() ? std::nullopt : std::optional(store::read_manifest(run_folder));
 }
 
+/// Whether a case has a run of that kind that came to its end.
+bool is_completed(const CaseResult& result, std::string_view kind) {
+  const auto run = manifest_of(result.run_folder);
+  return run && run->header.kind == kind && run->result.outcome == simulation::Outcome::completed;
+}
+
 }  // namespace
 
 store::Table summary(const std::vector<CaseResult>& cases) {
@@ -93,14 +99,23 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
   Figure figure;
   figure.title = title;
   for (const CaseResult& result : cases) {
-    if (result.run_folder.empty()) continue;
-    const store::Manifest manifest = store::read_manifest(result.run_folder);
-    const bool drawn = manifest.header.kind == "drive" && manifest.result.outcome == simulation::Outcome::completed;
-    if (!drawn) continue;
+    if (!is_completed(result, "drive")) continue;
     const std::string label = label_without_seed(result.labels);
     auto group = std::ranges::find(figure.groups, label, &CurveGroup::label);
     if (group == figure.groups.end()) group = figure.groups.insert(figure.groups.end(), CurveGroup{label, {}});
     group->packings.push_back(read_resistance(result.run_folder));
+  }
+  return figure;
+}
+
+SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseResult>& cases) {
+  SurfaceFigure figure{title, {}};
+  for (const CaseResult& result : cases) {
+    if (!is_completed(result, "flow")) continue;
+    std::optional<SurfaceCurve> curve = read_surface(result.run_folder);
+    if (!curve) continue;
+    curve->label = label_without_seed(result.labels);
+    figure.curves.push_back(std::move(*curve));
   }
   return figure;
 }

@@ -7,6 +7,7 @@
 
 #include "runner/present/figure.h"
 #include "runner/present/replicates.h"
+#include "runner/present/surface_figure.h"
 #include "runner/present/table.h"
 #include "runner/store/catalogue.h"
 
@@ -27,6 +28,9 @@ store::Table summary(const std::vector<CaseResult>& cases);
 
 /// The completed drives as a figure, packings of the same case together. Throws store::StoreError.
 Figure resistance_figure(const std::string& title, const std::vector<CaseResult>& cases);
+
+/// The free surfaces of the completed flows as a figure, one curve per case. Throws store::StoreError.
+SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseResult>& cases);
 
 /// The table that a study ends with, and how far its numbers carry: case by case, or, when the cases have replicates,
 /// packings put together. Throws store::StoreError.

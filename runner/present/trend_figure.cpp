@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // In pixels.
-constexpr int kPanel = 620, kHeight = 620, kSide = 28, kTitleLine = 25, kNoteLine = 22, kAxis = 92, kGap = 24;
-constexpr std::size_t kCharactersPerPanel = 54, kMostTitleLines = 3;
+constexpr int kPanel = 620, kHeight = 620, kAxis = 92, kGap = 24;
+constexpr std::size_t kCharactersPerPanel = 54;
 
 /// One line of a panel: its cases by rising abscissa.
 struct Series {
@@ -102,29 +102,14 @@ std::string gnuplot_script(const std::string& title, const Trend& trend) {
     add_series(right, fmt::format("right_{}", s), s, all[s].name, ratios, pairs);
   }
 
-  std::string script = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic rounded enhanced font 'Helvetica,15' background '#ffffff'\n",
-      width, kHeight);
-  int top = kSide, label = 1;
-  const auto put = [&](const std::string& line, int height, const char* font, const char* colour) {
-    script += fmt::format("set label {} {} at screen {:.4f},{:.4f} left noenhanced font '{}' tc rgb '#{}'\n", label++,
-                          quoted(line), static_cast<double>(kSide) / width, 1 - static_cast<double>(top) / kHeight,
-                          font, colour);
-    top += height;
-  };
-  std::vector<std::string> lines = wrapped(title, kCharactersPerPanel * static_cast<std::size_t>(width / kPanel));
-  if (lines.size() > kMostTitleLines) {
-    lines.resize(kMostTitleLines);
-    lines.back() += " …";
-  }
-  for (const std::string& line : lines) put(line, kTitleLine, "Helvetica:Bold,18", "1a1a1a");
   const bool replicated = std::ranges::any_of(trend.cases, [](const TrendCase& one) { return one.runs.size() > 1; });
-  put(replicated ? fmt::format("Bars: {:g} % interval of the mean over packings; faint: each packing.",
-                               100 * trend.question.level)
-                 : "One packing: no interval.",
-      kNoteLine, "Helvetica,14", "666666");
-
+  const std::string note = replicated
+                               ? fmt::format("Bars: {:g} % interval of the mean over packings; faint: each packing.",
+                                             100 * trend.question.level)
+                               : "One packing: no interval.";
+  const Heading head =
+      heading(title, note, width, kHeight, kCharactersPerPanel * static_cast<std::size_t>(width / kPanel));
+  std::string script = head.script;
   script +=
       "set border 3 lw 1 lc rgb '#8c8c8c'\n"
       "set xtics out nomirror scale 0.6 tc rgb '#444444'\n"
@@ -133,18 +118,18 @@ std::string gnuplot_script(const std::string& title, const Trend& trend) {
       "set offsets graph 0.05, graph 0.05, graph 0.12, 0\n"
       "set key top left inside reverse Left noenhanced samplen 1.5 spacing 1.25 tc rgb '#1a1a1a'\n";
   script += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
-                        1 - static_cast<double>(top + kGap) / kHeight, 70.0 / kHeight);
+                        1 - static_cast<double>(head.bottom + kGap) / kHeight, 70.0 / kHeight);
   script += fmt::format("set xlabel {} noenhanced tc rgb '#1a1a1a'\n", axis_title(trend.question.against, x_unit));
   script += left.blocks + right.blocks + "set multiplot\n";
   // The last curve is never seen; it saves the lists from a special last line.
   const auto draw_panel = [&](int index, const std::string& y_title, const std::string& plot) {
-    const double from = index * kPanel + kAxis, to = (index + 1) * kPanel - kSide;
+    const double from = index * kPanel + kAxis, to = (index + 1) * kPanel - kHeadingSide;
     script += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n", from / width, to / width);
     script += fmt::format("set ylabel {} noenhanced tc rgb '#1a1a1a'\nplot \\\n{}  NaN notitle\n", y_title, plot);
   };
   draw_panel(0, axis_title(trend.question.of, y_unit), left.plot);
   if (has_effect) {
-    for (int i = 1; i < label; ++i) script += fmt::format("unset label {}\n", i);
+    script += "unset label\n";
     draw_panel(1, quoted("ratio to " + trend.reference + ", on the same bed"),
                "  1 with lines lw 1 dt (6,4) lc rgb '#8c8c8c' notitle, \\\n" + right.plot);
   }

@@ -37,8 +37,8 @@ const std::vector<Room> kRooms = {
       "solver/simulation/run.h", "solver/simulation/state.h"}},
     {"runner/execute/", {"runner/store/", "runner/study/", "solver/simulation/", "solver/scene/"}},
     {"runner/present/",
-     {"runner/store/", "solver/base/", "solver/scene/", "solver/pile/pile.h", "solver/simulation/frame.h",
-      "solver/simulation/record.h"}},
+     {"runner/store/", "solver/base/", "solver/scene/", "solver/pile/pile.h", "solver/simulation/flow_frame.h",
+      "solver/simulation/frame.h", "solver/simulation/record.h"}},
     {"runner/commands/", {"runner/present/", "runner/execute/", "runner/store/", "runner/study/"}},
 };
 

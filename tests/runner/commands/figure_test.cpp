@@ -115,7 +115,7 @@ TEST_F(FigureCommand, WhatCannotBeDrawnEndsWithTwoAndOneLineAndWritesNothing) {
   const auto before = pictures();
   const std::string flat = ids["flat"];
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"figure", "colours", flat}, "bed, forces, stress and velocity"},
+      {{"figure", "colours", flat}, "bed, forces, stress, velocity and mesh"},
       {{"figure", flat, "bed"}, "there is no figure"},
       {{"figure", "bed", flat, "-o", "c.pdf"}, ".svg or .png"},
       {{"figure", "bed", flat, "-o", "c"}, ".svg or .png"},
@@ -127,7 +127,7 @@ TEST_F(FigureCommand, WhatCannotBeDrawnEndsWithTwoAndOneLineAndWritesNothing) {
       {{"figure", "bed", flat, "--window", "1,0,0,1", "-o", "c.svg"}, "x0 < x1"},
       {{"figure", "bed", flat, "--window", "0,nan,0,1", "-o", "c.svg"}, "x0 < x1"},
       {{"figure", "bed", flat, "--window", "0,1m,0,1", "-o", "c.svg"}, "x0 < x1"},
-      {{"figure", "bed", flat, "--window", "0,1,0,0.01", "-o", "c.svg"}, "20 times"},
+      {{"figure", "bed", flat, "--window", "0,1,0,0.01", "-o", "c.svg"}, "30 times"},
       {{"figure", "bed", flat, "--window", "7,8,0,1", "-o", "c.svg"}, "nothing of the box"},
       {{"figure", "bed", ids["bed"], "-o", "c.svg"}, "is a bed"},
       {{"figure", "bed", flat, ids["bed"], "-o", "c.svg"}, "is a bed"},

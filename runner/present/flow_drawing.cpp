@@ -1,0 +1,122 @@
+#include "runner/present/flow_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runner/present/colour_bar.h"
+#include "runner/present/flow_marks.h"
+#include "runner/present/frame_axes.h"
+#include "runner/present/lettering.h"
+
+namespace seapile::present {
+namespace {
+
+// In units of the canvas.
+constexpr double kWidest = 720, kTallest = 480;  ///< a panel
+constexpr double kSide = 14, kHeading = 28, kPanelTitle = 22, kName = 18, kRemark = 17, kGap = 18;
+constexpr double kLegend = 78, kLegendNames = 36, kShortestBar = 56, kTallestBar = 240;
+constexpr double kLeastLegend = kLegendNames + kShortestBar + 14;
+constexpr double kLeastWidth = 520;  ///< room for the heading and its key
+constexpr double kSample = 22, kRemarkSize = 10.5;
+
+const AxisNames kNames = {"x [H]", "distance from the axis y [H]", "y [H]"};
+
+const char* heading(FlowFigureKind kind) {
+  return kind == FlowFigureKind::mesh ? "Mesh of the fluid" : "Velocity of the fluid";
+}
+
+/// What is said below the panels, line by line.
+std::vector<std::string> remarks(const FlowFigure& figure) {
+  const std::string scales = "H: the die's radius or half gap; x is 0 at its lip.";
+  if (figure.kind == FlowFigureKind::mesh) {
+    std::vector<std::string> sizes;
+    for (const FlowPanel& panel : figure.panels) {
+      sizes.push_back(fmt::format("{} vertices and {} triangles", panel.vertices, panel.triangles));
+    }
+    if (std::ranges::count(sizes, sizes.front()) == std::ssize(sizes)) sizes.resize(1);
+    return {fmt::format("The whole mesh has {}. {}", fmt::join(sizes, "; "), scales)};
+  }
+  return {fmt::format("Colour: speed, linear in each triangle. Arrows: velocity at their middles, {:g} H apart.",
+                      figure.spacing),
+          scales + " U: the mean velocity in the die."};
+}
+
+/// What the lines are, from the right end of the heading leftwards.
+void draw_key(cairo_t* context, const FlowFigure& figure, double right, double y) {
+  std::vector<std::pair<EdgeLook, std::string>> entries = {{EdgeLook::surface, "free surface"},
+                                                           {EdgeLook::boundary, "other boundary"}};
+  if (figure.kind == FlowFigureKind::mesh) entries.emplace_back(EdgeLook::inner, "edge");
+  const Lettering look{10.5, Align::right};
+  for (const auto& [line, name] : entries) {
+    write(context, right, y, name, look);
+    right -= text_width(context, name, look) + 6;
+    draw_sample(context, {right - kSample, y - 3.7}, {right, y - 3.7}, line);
+    right -= kSample + 16;
+  }
+}
+
+void draw_panel(cairo_t* context, const FlowFigure& figure, const FlowPanel& panel, const Mapping& map) {
+  cairo_save(context);
+  cairo_rectangle(context, map.left, map.top, map.right() - map.left, map.bottom() - map.top);
+  cairo_clip(context);
+  draw_die(context, map, panel.die);
+  draw_speeds(context, map, panel.faces, figure.full);
+  draw_edges(context, map, panel.edges, EdgeLook::inner);
+  draw_edges(context, map, panel.boundary, EdgeLook::boundary);
+  draw_edges(context, map, panel.surface, EdgeLook::surface);
+  draw_flow(context, map, panel.arrows);
+  cairo_restore(context);
+}
+
+}  // namespace
+
+std::string picture_of(const FlowFigure& figure, PictureFormat format) {
+  double widest = 0, tallest = 0;
+  for (const FlowPanel& panel : figure.panels) {
+    widest = std::max(widest, panel.view.width());
+    tallest = std::max(tallest, panel.view.height());
+  }
+  const double scale = std::min(kWidest / widest, kTallest / tallest);
+  const Steps steps = axis_steps(widest, tallest, scale);
+  double numbers = 0;
+  for (const FlowPanel& panel : figure.panels) numbers = std::max(numbers, room_for_numbers(panel.view, steps.y));
+  const bool has_legend = figure.full > 0;
+  const double left = kSide + kName + numbers, room = has_legend ? kGap + kLegend : 0;
+  const double width = std::max(left + widest * scale + room + kSide, kLeastWidth);
+  const std::vector<std::string> lines = remarks(figure);
+  const double each = kPanelTitle + std::max(tallest * scale + kBottomAxis, has_legend ? kLeastLegend : 0);
+  const double height = kSide + kHeading + each * static_cast<double>(figure.panels.size()) +
+                        kRemark * static_cast<double>(lines.size()) + kSide;
+
+  Canvas canvas(format, width, height);
+  cairo_t* context = canvas.context();
+  std::string description = fmt::format("{}.", heading(figure.kind));
+  write(context, kSide, kSide + 14, heading(figure.kind), {15, Align::left, true});
+  draw_key(context, figure, width - kSide, kSide + 14);
+  double top = kSide + kHeading + kPanelTitle;
+  for (const FlowPanel& panel : figure.panels) {
+    const Mapping map{panel.view, left, top, scale};
+    draw_panel(context, figure, panel, map);
+    draw_axes(context, map, steps, kNames, numbers + 5);
+    write_within(context, left, top - 7, width - kSide - left, panel.title, {12, Align::left, true});
+    description += fmt::format(" {}.", panel.title);
+    if (has_legend) {
+      const double x = map.right() + kGap;
+      write(context, x, top + 9, "speed", {11});
+      write(context, x, top + 23, "[U]", {11});
+      draw_bar(context, x, top + kLegendNames, std::clamp(tallest * scale - kLegendNames, kShortestBar, kTallestBar),
+               figure.full, false);
+    }
+    top += each;
+  }
+  double y = top - kPanelTitle + 14;
+  for (const std::string& line : lines) {
+    write_within(context, kSide, y, width - 2 * kSide, line, {kRemarkSize, Align::left, false, 0.35});
+    description += " " + line;
+    y += kRemark;
+  }
+  return canvas.finish(description);
+}
+
+}  // namespace seapile::present

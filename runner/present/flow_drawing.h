@@ -1,0 +1,15 @@
+// A figure of the water as a file: panels one below the other, for a jet is long, with axes, a legend, and a line that
+// says what is seen.
+#pragma once
+
+#include <string>
+
+#include "runner/present/canvas.h"
+#include "runner/present/flow_figure.h"
+
+namespace seapile::present {
+
+/// The bytes of the file; the same for the same figure. Throws store::StoreError when cairo fails.
+std::string picture_of(const FlowFigure& figure, PictureFormat format);
+
+}  // namespace seapile::present

@@ -1,0 +1,198 @@
+#include "runner/present/flow_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "runner/present/arrays.h"
+#include "runner/present/axis.h"
+
+namespace seapile::present {
+namespace {
+
+using base::Vec2;
+
+constexpr double kBeforeLip = 2, kBehindLip = 4;  ///< [H]
+constexpr double kMargin = 0.1;                   ///< around the fluid [H]
+constexpr int kMostArrows = 32;                   ///< along the larger edge of the view
+constexpr double kLongestArrow = 0.9;             ///< in spacings of the grid
+
+/// A frame's mesh, with its arrays found and its rows checked once.
+struct Mesh {
+  explicit Mesh(const simulation::FlowFrame& frame)
+      : positions(values<double>(frame.vertices, "vertices/position")),
+        corners(values<std::int64_t>(frame.triangles, "triangles/corner")) {
+    const auto count = static_cast<std::int64_t>(vertices());
+    if (std::ranges::any_of(corners, [&](std::int64_t row) { return row < 0 || row >= count; })) {
+      throw store::StoreError(store::StoreError::Kind::damaged,
+                              "a triangle of the frame has a corner that is no vertex");
+    }
+  }
+  std::size_t vertices() const { return positions.size() / 2; }
+  std::size_t triangles() const { return corners.size() / 3; }
+  Vec2 at(std::int64_t row) const { return vec2(positions, static_cast<std::size_t>(row)); }
+  std::span<const std::int64_t> triangle(std::size_t t) const { return std::span(corners).subspan(3 * t, 3); }
+
+  const std::vector<double>& positions;
+  const std::vector<std::int64_t>& corners;
+};
+
+View around(std::span<const Vec2> points) {
+  View box{points[0].x, points[0].x, points[0].y, points[0].y};
+  for (const Vec2 p : points) {
+    box = {std::min(box.left, p.x), std::max(box.right, p.x), std::min(box.bottom, p.y), std::max(box.top, p.y)};
+  }
+  return box;
+}
+
+View around(const View& a, const View& b) {
+  return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.bottom, b.bottom), std::max(a.top, b.top)};
+}
+
+bool meet(const View& a, const View& b) {
+  return a.left <= b.right && b.left <= a.right && a.bottom <= b.top && b.bottom <= a.top;
+}
+
+bool sees(const View& view, Vec2 p) {
+  return p.x >= view.left && p.x <= view.right && p.y >= view.bottom && p.y <= view.top;
+}
+
+View box_of(const Mesh& mesh) {
+  std::vector<Vec2> points;
+  for (std::size_t v = 0; v < mesh.vertices(); ++v) points.push_back(mesh.at(static_cast<std::int64_t>(v)));
+  if (points.empty()) throw store::StoreError(store::StoreError::Kind::damaged, "the frame has no vertices");
+  return around(points);
+}
+
+using Ends = std::pair<std::int64_t, std::int64_t>;  ///< rows of an edge's vertices, the lower one first
+
+Ends ends(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Every edge once, sorted by what it separates: two triangles, fluid and air, or fluid and the rest.
+void add_edges(const Mesh& mesh, const simulation::FlowFrame& frame, FlowFigureKind kind, FlowPanel& panel) {
+  std::map<Ends, int> triangles_at;
+  for (std::size_t t = 0; t < mesh.triangles(); ++t) {
+    const auto corner = mesh.triangle(t);
+    for (std::size_t k = 0; k < 3; ++k) ++triangles_at[ends(corner[k], corner[(k + 1) % 3])];
+  }
+  std::set<Ends> surface;
+  if (!frame.surface.empty()) {
+    const auto& row = values<std::int64_t>(frame.surface, "surface/vertex");
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) surface.insert(ends(row[i], row[i + 1]));
+  }
+  for (const auto& [edge, count] : triangles_at) {
+    const Vec2 both[] = {mesh.at(edge.first), mesh.at(edge.second)};
+    if (!meet(panel.view, around(both))) continue;
+    if (count > 1 && kind != FlowFigureKind::mesh) continue;
+    (count > 1 ? panel.edges : surface.contains(edge) ? panel.surface : panel.boundary).push_back({both[0], both[1]});
+  }
+}
+
+/// The velocity at a point of the triangles that are drawn, linear in each; absent where there is none of them.
+std::optional<Vec2> velocity_at(Vec2 p, const Mesh& mesh, const std::vector<double>& velocity,
+                                const std::vector<std::size_t>& seen) {
+  for (const std::size_t t : seen) {
+    const auto corner = mesh.triangle(t);
+    const Vec2 a = mesh.at(corner[0]), ab = mesh.at(corner[1]) - a, ac = mesh.at(corner[2]) - a, ap = p - a;
+    const double area = ab.x * ac.y - ab.y * ac.x;
+    const double b = (ap.x * ac.y - ap.y * ac.x) / area, c = (ab.x * ap.y - ab.y * ap.x) / area;
+    constexpr double kHair = -1e-9;  // A point on an edge lies in one of its triangles, however sums are rounded.
+    if (!(b >= kHair && c >= kHair && b + c <= 1 - kHair)) continue;
+    const auto at = [&](std::size_t k) { return vec2(velocity, static_cast<std::size_t>(corner[k])); };
+    return (1 - b - c) * at(0) + b * at(1) + c * at(2);
+  }
+  return std::nullopt;
+}
+
+void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
+  double edge = 0;
+  std::vector<std::vector<std::size_t>> seen(runs.size());
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Mesh mesh(runs[k].frame);
+    const auto& velocity = values<double>(runs[k].frame.vertices, "vertices/velocity");
+    FlowPanel& panel = figure.panels[k];
+    edge = std::max({edge, panel.view.width(), panel.view.height()});
+    for (std::size_t t = 0; t < mesh.triangles(); ++t) {
+      const auto corner = mesh.triangle(t);
+      DrawnTriangle face;
+      for (std::size_t i = 0; i < 3; ++i) {
+        face.corner[i] = mesh.at(corner[i]);
+        face.speed[i] = norm(vec2(velocity, static_cast<std::size_t>(corner[i])));
+      }
+      if (!meet(panel.view, around(face.corner))) continue;
+      figure.full = std::max(figure.full, *std::ranges::max_element(face.speed));
+      seen[k].push_back(t);
+      panel.faces.push_back(face);
+    }
+  }
+  figure.spacing = nice_step(edge, kMostArrows);
+  figure.length = kLongestArrow * figure.spacing;
+  if (figure.full == 0) return;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Mesh mesh(runs[k].frame);
+    const auto& velocity = values<double>(runs[k].frame.vertices, "vertices/velocity");
+    FlowPanel& panel = figure.panels[k];
+    // Half a step off the axis, on which arrows would lie on the edge of the fluid.
+    const auto first = [&](double from) { return (std::ceil(from / figure.spacing - 0.5) + 0.5) * figure.spacing; };
+    for (double x = first(panel.view.left); x < panel.view.right; x += figure.spacing) {
+      for (double y = first(panel.view.bottom); y < panel.view.top; y += figure.spacing) {
+        const auto v = velocity_at({x, y}, mesh, velocity, seen[k]);
+        if (!v) continue;
+        const Vec2 middle{x, y}, half = (figure.length / figure.full / 2) * *v;
+        const auto fits = [&](Vec2 end) { return sees(panel.view, end) && velocity_at(end, mesh, velocity, seen[k]); };
+        if (!fits(middle - half) || !fits(middle + half)) continue;
+        panel.arrows.push_back({middle - half, middle + half, norm(*v) / figure.full});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+View default_view(const FlowOfRun& run) {
+  const Mesh mesh(run.frame);
+  const View box = box_of(mesh);
+  View view{std::max(-kBeforeLip, box.left - kMargin), std::min(kBehindLip, box.right + kMargin), box.bottom - kMargin,
+            box.bottom};
+  for (std::size_t v = 0; v < mesh.vertices(); ++v) {
+    const Vec2 p = mesh.at(static_cast<std::int64_t>(v));
+    if (p.x >= view.left && p.x <= view.right) view.top = std::max(view.top, p.y);
+  }
+  view.top += 2 * kMargin;
+  return view;
+}
+
+FlowFigure flow_figure(FlowFigureKind kind, const std::vector<FlowOfRun>& runs, const std::optional<View>& view) {
+  FlowFigure figure;
+  figure.kind = kind;
+  if (runs.empty()) return figure;
+  View whole = default_view(runs.front());
+  for (const FlowOfRun& run : runs) whole = around(whole, default_view(run));
+  for (const FlowOfRun& run : runs) {
+    if (!run.scene.jet) throw std::logic_error("a frame of the water of a scene without a jet");
+    const Mesh mesh(run.frame);
+    FlowPanel panel;
+    panel.title = run.title;
+    panel.view = view.value_or(whole);
+    panel.vertices = mesh.vertices();
+    panel.triangles = mesh.triangles();
+    if (const View box = box_of(mesh); !meet(panel.view, box)) {
+      throw std::invalid_argument(
+          fmt::format("the window shows nothing of the fluid, which is x from {:g} to {:g} H and y from {:g} to {:g} H",
+                      box.left, box.right, box.bottom, box.top));
+    }
+    panel.die = {-run.scene.jet->upstream, 0, 1, panel.view.top};
+    add_edges(mesh, run.frame, kind, panel);
+    figure.panels.push_back(std::move(panel));
+  }
+  if (kind == FlowFigureKind::velocity) add_velocities(runs, figure);
+  return figure;
+}
+
+}  // namespace seapile::present

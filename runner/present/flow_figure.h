@@ -1,0 +1,66 @@
+// Frames of the water as figures: what is to be seen where before anything is drawn. Lengths are in H, the die's radius
+// or half gap, velocities in U, the mean in the die; x is 0 at the lip, y on the axis. Several runs are panels of one
+// figure and share every scale, so that they can be compared by eye.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runner/present/frame_figure.h"
+#include "solver/simulation/flow_frame.h"
+
+namespace seapile::present {
+
+enum class FlowFigureKind {
+  mesh,      ///< the edges of the triangles
+  velocity,  ///< triangles coloured by the speed, and arrows on a regular grid
+};
+
+/// A frame of a flow, and what is known of its run.
+struct FlowOfRun {
+  std::string title;       ///< what tells the run from others
+  scene::SceneSpec scene;  ///< with a jet
+  simulation::FlowFrame frame;
+};
+
+struct DrawnEdge {
+  base::Vec2 from, to;
+};
+
+struct DrawnTriangle {
+  std::array<base::Vec2, 3> corner;
+  std::array<double, 3> speed;  ///< |u| at the corners; linear between them
+};
+
+struct FlowPanel {
+  std::string title;
+  View view;                                ///< what is seen
+  View die;                                 ///< its wall, solid above the fluid; as high as the view
+  std::size_t vertices = 0, triangles = 0;  ///< of the whole mesh
+  // Only what may lie in the view, at least in part: by bounding boxes.
+  std::vector<DrawnEdge> edges;       ///< mesh: between two triangles
+  std::vector<DrawnEdge> boundary;    ///< of one triangle, but for the free surface
+  std::vector<DrawnEdge> surface;     ///< the free surface
+  std::vector<DrawnTriangle> faces;   ///< velocity
+  std::vector<DrawnVelocity> arrows;  ///< velocity: middles on the grid; as a whole in the view and in the fluid
+};
+
+struct FlowFigure {
+  FlowFigureKind kind = FlowFigureKind::mesh;
+  double full = 0;     ///< velocity: the largest speed at a corner of a triangle of any panel
+  double spacing = 0;  ///< velocity: of the grid of arrows
+  double length = 0;   ///< velocity: of an arrow of the speed `full`
+  std::vector<FlowPanel> panels;
+};
+
+/// Around the lip: from 2 H before it to 4 H behind it, ending at the fluid; a little beyond the axis and the surface.
+View default_view(const FlowOfRun& run);
+
+/// Puts a figure together. Every panel shows `view`, or what holds the default ones of all runs. Throws
+/// std::invalid_argument, in a sentence, when the view lies beside the fluid; store::StoreError when a frame lacks an
+/// array.
+FlowFigure flow_figure(FlowFigureKind kind, const std::vector<FlowOfRun>& runs, const std::optional<View>& view);
+
+}  // namespace seapile::present
