@@ -28,21 +28,29 @@ TimeScheme scheme_of(const Past& past, TimeOrder order) {
   return scheme;
 }
 
+/// What rounding leaves of the pressure's terms, by their size; ten times what a fluid at rest shows.
+constexpr double kRounding = 1e-14;
+
 /// How residuals are measured.
 struct Measure {
+  double h;            ///< [m]
+  double stiffness;    ///< force on a vertex by its velocity [kg/m/s]
   double mass_weight;  ///< of a mass row, so that it compares with a momentum row [kg/m2/s]
-  double scale;        ///< [N/m]
 
   Measure(const Flow& flow, double rate) {
-    double area = 0, square = 0;
+    double area = 0;
     for (const auto& t : flow.mesh.triangle)
       area += 0.5 * mesh::doubled_area(flow.mesh.position[t[0]], flow.mesh.position[t[1]], flow.mesh.position[t[2]]);
-    for (std::size_t i = 0; i < flow.unknown.size(); ++i)
-      if (i % 3 != kPressure) square += flow.unknown[i] * flow.unknown[i];
-    const double h = std::sqrt(area / static_cast<double>(flow.mesh.vertices()));
-    const double stiffness = flow.fluid.density * rate * h * h + flow.fluid.viscosity;
+    h = std::sqrt(area / static_cast<double>(flow.mesh.vertices()));
+    stiffness = flow.fluid.density * rate * h * h + flow.fluid.viscosity;
     mass_weight = stiffness / h;
-    scale = stiffness * std::sqrt(square);
+  }
+  /// A weighted residual by the size of the velocity's terms; 0 when it is no more than rounding.
+  double share(double norm, std::span<const double> unknown) const {
+    double velocity = 0, pressure = 0;
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      (i % 3 == kPressure ? pressure : velocity) += unknown[i] * unknown[i];
+    return norm <= kRounding * h * std::sqrt(pressure) ? 0 : norm / (stiffness * std::sqrt(velocity));
   }
   /// The residual with its mass rows weighted.
   Eigen::VectorXd weighted(std::span<const double> residual) const {
@@ -75,9 +83,9 @@ class Iteration {
     int stored = 0;
     for (;; ++report.iterations) {
       const double norm = r.norm();
-      report.residual = measure_.scale > 0 ? norm / measure_.scale : norm;
+      report.residual = measure_.share(norm, flow_.unknown);
       if (!std::isfinite(norm)) return report;
-      if (norm <= solver_.tolerance * measure_.scale) {
+      if (report.residual <= solver_.tolerance) {
         report.converged = true;
         return report;
       }
@@ -158,7 +166,8 @@ void set_rates(Flow& flow, const Past& past, TimeOrder order) {
 FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile) {
   const std::size_t in_packing = profile.index("fluid packing"), in_factor = profile.index("fluid factor");
   const std::vector<double> given = flow.unknown;
-  const TimeScheme scheme = scheme_of(past, solver.order);
+  TimeScheme scheme = scheme_of(past, solver.order);
+  scheme.unsteadiness = solver.unsteadiness.value_or(scheme.rate);
   {
     const base::Stopwatch watch(profile, in_packing);
     pack(solver.packed, flow, scheme);

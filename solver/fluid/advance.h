@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct FlowSolver {
   TimeOrder order = TimeOrder::second;
   double tolerance = 1e-8;  ///< largest |R| by the size of its terms (see FlowReport) [-]
   base::InstructionSet instructions = base::InstructionSet::generic;
+  /// The fastest rate at which the flow changes, for its stabilisation (element.h) [1/s]; absent: that of the scheme.
+  std::optional<double> unsteadiness;
 
   KeptFactor factor;
   double factor_rate = -1;  ///< rate of the scheme that the factor belongs to [1/s]
@@ -60,7 +63,8 @@ struct FlowReport {
   bool converged = false;
   int iterations = 0;
   bool refactored = false;
-  /// |R|, mass rows weighted with (rho rate + mu/h^2) h, by (rho rate h^2 + mu) |u|; h^2 the mean area of a vertex [-].
+  /// |R|, mass rows weighted with (rho rate + mu/h^2) h, by (rho rate h^2 + mu) |u|; h^2 the mean area of a vertex. 0
+  /// when |R| is no more than the rounding of the pressure's terms, |p| h: a fluid at rest has no other scale [-].
   double residual = 0;
   std::string reason;  ///< one sentence when not converged
 };

@@ -1,7 +1,7 @@
 // What an edge of the boundary adds to the residuals of its two ends. Scalar is double or a dual number.
 //
-//   pressure from outside     - integral of t.w,  t = -p_ext n
-//   Navier slip               - integral of t.w,  t = -friction (v - wall)
+//   pressure from outside     - integral of t.w,  t = -phi p_ext n
+//   Navier slip               - integral of t.w,  t = -friction phi (v - wall)
 //   free surface              the outside pressure, and gamma times the derivative of the surface's area in the
 //   direction of w kinematic condition       integral of (dh/dt + v_x dh/dx - v_y)(N + share (dx/2) sign(v_x) N')
 //
@@ -30,16 +30,17 @@ using EdgeForces = std::array<std::array<Scalar, 2>, 2>;
 /// Points of Gauss on [0, 1], exact to degree 3; each has the weight 1/2.
 inline constexpr double kGauss[2] = {0.21132486540518713, 0.78867513459481287};
 
-/// Residuals from the outside pressure; the domain lies to the left of the edge from [0] to [1].
+/// Residuals from the outside pressure; the domain lies to the left of the edge from [0] to [1]. `porosity` at its
+/// ends.
 template <class Scalar>
 EdgeForces<Scalar> pressure_force(Geometry geometry, const std::array<EdgeEnd<Scalar>, 2>& end,
-                                  const std::array<double, 2>& pressure) {
+                                  const std::array<double, 2>& porosity, const std::array<double, 2>& pressure) {
   // n ds = (dy, -dx): to the right.
   const Scalar nx = end[1].y - end[0].y, ny = end[0].x - end[1].x;
   EdgeForces<Scalar> force;
   for (auto& f : force) f = {0 * nx, 0 * nx};
   for (const double at : kGauss) {
-    const double p = (1 - at) * pressure[0] + at * pressure[1];
+    const double p = ((1 - at) * porosity[0] + at * porosity[1]) * ((1 - at) * pressure[0] + at * pressure[1]);
     Scalar weight = 0.5 * p + 0 * nx;
     if (geometry == Geometry::axisymmetric) weight *= (1 - at) * end[0].y + at * end[1].y;
     for (int i = 0; i < 2; ++i) {
@@ -51,17 +52,18 @@ EdgeForces<Scalar> pressure_force(Geometry geometry, const std::array<EdgeEnd<Sc
   return force;
 }
 
-/// Residuals from Navier's slip.
+/// Residuals from Navier's slip; `porosity` at the two ends.
 template <class Scalar>
-EdgeForces<Scalar> slip_force(Geometry geometry, const std::array<EdgeEnd<Scalar>, 2>& end, double friction,
-                              base::Vec2 wall) {
+EdgeForces<Scalar> slip_force(Geometry geometry, const std::array<EdgeEnd<Scalar>, 2>& end,
+                              const std::array<double, 2>& porosity, double friction, base::Vec2 wall) {
   using std::sqrt;
   const Scalar dx = end[1].x - end[0].x, dy = end[1].y - end[0].y, length = sqrt(dx * dx + dy * dy);
   EdgeForces<Scalar> force;
   for (auto& f : force) f = {0 * dx, 0 * dx};
   for (const double at : kGauss) {
-    Scalar slide =
-        ((1 - at) * end[0].ux + at * end[1].ux - wall.x) * dx + ((1 - at) * end[0].uy + at * end[1].uy - wall.y) * dy;
+    const base::Vec2 carried = ((1 - at) * porosity[0] + at * porosity[1]) * wall;
+    Scalar slide = ((1 - at) * end[0].ux + at * end[1].ux - carried.x) * dx +
+                   ((1 - at) * end[0].uy + at * end[1].uy - carried.y) * dy;
     slide = 0.5 * friction * slide / length;
     if (geometry == Geometry::axisymmetric) slide *= (1 - at) * end[0].y + at * end[1].y;
     for (int i = 0; i < 2; ++i) {
@@ -75,10 +77,10 @@ EdgeForces<Scalar> slip_force(Geometry geometry, const std::array<EdgeEnd<Scalar
 
 /// Residuals from tension and outside pressure on an edge of the free surface; the domain lies to the left.
 template <class Scalar>
-EdgeForces<Scalar> surface_force(Geometry geometry, const std::array<EdgeEnd<Scalar>, 2>& end, double tension,
-                                 double outside_pressure) {
+EdgeForces<Scalar> surface_force(Geometry geometry, const std::array<EdgeEnd<Scalar>, 2>& end,
+                                 const std::array<double, 2>& porosity, double tension, double outside_pressure) {
   using std::sqrt;
-  EdgeForces<Scalar> force = pressure_force(geometry, end, {outside_pressure, outside_pressure});
+  EdgeForces<Scalar> force = pressure_force(geometry, end, porosity, {outside_pressure, outside_pressure});
   const Scalar dx = end[1].x - end[0].x, dy = end[1].y - end[0].y, length = sqrt(dx * dx + dy * dy);
   Scalar pull = tension / length;
   if (geometry == Geometry::axisymmetric) {

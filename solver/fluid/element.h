@@ -14,8 +14,10 @@
 //   PSPG   phi tau (grad q).R       makes equal orders stable             Tezduyar et al. 1992
 //   SUPG   rho phi tau ((v-w).grad w).R                                   Brooks, Hughes 1982
 //   LSIC   tau_L (div w)(dphi/dt + div u)                                 Tezduyar, Osawa 2000
-// with R the momentum residual, all terms of which are there that linear functions have. Natural boundary condition:
-// (-p I + mu phi (grad v + grad v^T)) n = t, the full traction.
+// with R the momentum residual, all terms of which are there that linear functions have. phi grad p is integrated by
+// parts as a whole, to -p div(phi w), so the natural boundary condition is the full traction on the fluid's share of
+// the boundary: phi (-p I + mu (grad v + grad v^T)) n = phi t. With grad p alone integrated, and (1 - phi) grad p left
+// inside, a flow between grains through an open boundary had an error of first order in p.
 // Order: 2 in velocity, at least 1.5 in pressure (L2). tau belongs to the state before the iteration: it is not
 // differentiated. Axisymmetric: x is the axis, y the radius; every integral has the weight y, strain has v_y / y, and a
 // factor 2 pi is left out.
@@ -49,6 +51,7 @@ struct ElementInput {
   std::array<std::array<Real, 2>, 3> source;         ///< s [N/m3]
   std::array<Real, 3> drag;                          ///< beta [kg/m3/s]
   double rate = 0;                                   ///< [1/s], of the time scheme; 0: steady
+  double unsteadiness = 0;                           ///< s of the stabilisation [1/s]
 };
 
 /// A triangle's unknowns: superficial velocity u [m/s] and pressure p [Pa], by vertex.
@@ -69,19 +72,20 @@ struct Stabilisation {
   Real lsic;  ///< tau_L [Pa s]
 };
 
-/// tau = 1/sqrt((2 rho phi |a|/h)^2 + (12 mu phi/h^2)^2 + (beta phi)^2), a = v - w, of Tezduyar's family; h is the
-/// diameter of the circle of equal area. tau_L = rho |a| h/2 min(Re/3, 1), Re = |a| h/(2 nu) (Tezduyar, Osawa 2000).
-/// The family's term of the time step, (2 rho phi/dt)^2, is left out: with it a steady state depends on the step that
-/// led to it (die swell: 5e-4 of the swell ratio at dt = 0.005 H/U), and pressure loses its stability as dt -> 0
-/// (Taylor-Green on 16^2 cells, dt = 2.5e-4: error in pressure 0.40 instead of 0.024; in velocity 1.45e-2 instead
-/// of 1.57e-2).
+/// tau = 1/sqrt((2 rho phi s)^2 + (2 rho phi |a|/h)^2 + (12 mu phi/h^2)^2 + (beta phi)^2), a = v - w, of Tezduyar's
+/// family; h is the diameter of the circle of equal area. tau_L = rho |a| h/2 min(Re/3, 1), Re = |a| h/(2 nu)
+/// (Tezduyar, Osawa 2000). s is the fastest rate at which the flow changes. Usually it is that of the time scheme,
+/// 1/dt; but then a steady state depends on the step that led to it (die swell: 5e-4 of the swell ratio at dt = 0.005
+/// H/U), and the pressure on a moving mesh gets worse as dt -> 0 (Taylor-Green on 16^2 cells, dt = 2.5e-4: an error of
+/// 0.40 instead of 0.024 with s = 0). Without s a slow wave is spoilt: of its mass equation the stabilisation is a
+/// share of rho tau s (k h)^2. So a scene that knows s says it.
 template <class Real>
-Stabilisation<Real> stabilisation(const Properties& fluid, const Real& area, const Real& porosity,
+Stabilisation<Real> stabilisation(const Properties& fluid, const Real& area, const Real& porosity, double unsteadiness,
                                   const Real& relative_speed, const Real& drag) {
   const Real h = root(area * (4 / std::numbers::pi)), inertia = fluid.density * porosity;
-  const Real along = 2 * inertia * relative_speed / h, across = 12 * fluid.viscosity * porosity / (h * h),
-             resisted = drag * porosity;
-  const Real tau = 1 / root(along * along + across * across + resisted * resisted);
+  const Real in_time = 2 * unsteadiness * inertia, along = 2 * inertia * relative_speed / h,
+             across = 12 * fluid.viscosity * porosity / (h * h), resisted = drag * porosity;
+  const Real tau = 1 / root(in_time * in_time + along * along + across * across + resisted * resisted);
   const Real momentum = fluid.density * relative_speed * h;
   return {tau, 0.5 * momentum * smaller(momentum * (1 / (6 * fluid.viscosity)), Real(1.0))};
 }
@@ -138,9 +142,9 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
                                 in.mesh_velocity[1][0] - in.mesh_velocity[2][0]);
   const Real ay_mean = third * (plain(vy[0]) + plain(vy[1]) + plain(vy[2]) - in.mesh_velocity[0][1] -
                                 in.mesh_velocity[1][1] - in.mesh_velocity[2][1]);
-  const Stabilisation<Real> stable =
-      stabilisation<Real>(fluid, 0.5 * plain(doubled), third * (in.porosity[0] + in.porosity[1] + in.porosity[2]),
-                          root(ax_mean * ax_mean + ay_mean * ay_mean), third * (in.drag[0] + in.drag[1] + in.drag[2]));
+  const Stabilisation<Real> stable = stabilisation<Real>(
+      fluid, 0.5 * plain(doubled), third * (in.porosity[0] + in.porosity[1] + in.porosity[2]), in.unsteadiness,
+      root(ax_mean * ax_mean + ay_mean * ay_mean), third * (in.drag[0] + in.drag[1] + in.drag[2]));
 
   std::array<Scalar, kUnknowns> residual;
   residual.fill(0 * doubled);
@@ -184,9 +188,9 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
                           beta * uy - here(component(in.source, 1));
     const Scalar Rx = stable.tau * (past_x + phi * dp_dx - div_x), Ry = stable.tau * (past_y + phi * dp_dy - div_y);
 
-    // (1 - phi) grad p is what the grains bear; the rest of grad p is integrated by parts, as the stress is.
-    const Scalar body_x = past_x - (1 - phi) * dp_dx, body_y = past_y - (1 - phi) * dp_dy;
-    const Scalar dilation = stable.lsic * continuity - p, sxx = txx + dilation, syy = tyy + dilation;
+    // phi grad p.w is integrated by parts, as the stress is: -p div(phi w).
+    const Scalar body_x = past_x - p * dphi_dx, body_y = past_y - p * dphi_dy;
+    const Scalar dilation = stable.lsic * continuity - phi * p, sxx = txx + dilation, syy = tyy + dilation;
     const Scalar along_x = inertia * ax, along_y = inertia * ay;
     for (int i = 0; i < 3; ++i) {
       const Scalar along = along_x * bx[i] + along_y * by[i];

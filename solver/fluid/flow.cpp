@@ -25,6 +25,7 @@ void hold(Flow& flow, std::int32_t vertex, Component component, double value) {
 ElementInput<double> input_of(const Flow& flow, const TimeScheme& scheme, std::size_t triangle) {
   ElementInput<double> in{};
   in.rate = scheme.rate;
+  in.unsteadiness = scheme.unsteadiness;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t v = flow.mesh.triangle[triangle][i];
     in.porosity[i] = flow.porosity[v];

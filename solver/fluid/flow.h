@@ -14,13 +14,15 @@ namespace seapile::fluid {
 /// Component of a vertex's unknowns.
 enum Component { kVelocityX = 0, kVelocityY = 1, kPressure = 2 };
 
-/// An edge of the boundary on which a pressure acts from outside: traction -pressure n. The domain lies to its left.
+/// An edge of the boundary on which a pressure acts from outside: traction -phi pressure n; what grains there bear is
+/// theirs. The domain lies to its left.
 struct OpenEdge {
   std::int32_t from = 0, to = 0;
   std::array<double, 2> pressure{};  ///< at its ends, without the hydrostatic one of the fluid's density [Pa]
 };
 
-/// An edge along a wall on which the fluid slips against friction (Navier): tangential traction -friction (v - wall).
+/// An edge along a wall on which the fluid slips against friction (Navier): tangential traction -friction phi (v -
+/// wall), so that the slip length is the same whatever the porosity.
 struct SlipEdge {
   std::int32_t from = 0, to = 0;
   double friction = 0;  ///< mu / slip length [Pa s/m]
@@ -54,8 +56,14 @@ void hold(Flow& flow, std::int32_t vertex, Component component, double value);
 /// How dv/dt is made of a velocity and those before it: rate v + history.
 struct TimeScheme {
   double rate = 0;                  ///< [1/s]; 0: steady
+  double unsteadiness = 0;          ///< s of the stabilisation [1/s]
   std::vector<base::Vec2> history;  ///< [m/s2], (vertices); empty when steady
 };
+
+/// Porosities at an edge's ends.
+inline std::array<double, 2> porosity_at(const Flow& flow, std::int32_t from, std::int32_t to) {
+  return {flow.porosity[from], flow.porosity[to]};
+}
 
 /// What a triangle's equations need of the flow.
 ElementInput<double> input_of(const Flow& flow, const TimeScheme& scheme, std::size_t triangle);

@@ -35,6 +35,7 @@ JetInTime started(const JetSpec& spec, const TransientMethod& method, base::Inst
   run.solver.order = method.order == 2 ? TimeOrder::second : TimeOrder::first;
   run.solver.tolerance = method.tolerance;
   run.solver.instructions = instructions;
+  run.solver.unsteadiness = 0;  // the steady state must not depend on the step
   Flow& flow = run.jet.flow;
   for (std::size_t v = 0; v < flow.mesh.vertices(); ++v)
     if (!flow.held[3 * v]) flow.unknown[3 * v] = developed(spec.geometry, flow.mesh.position[v].y);

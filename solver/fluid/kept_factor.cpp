@@ -109,7 +109,7 @@ Eigen::SparseMatrix<double> jacobian(const Flow& flow, const TimeScheme& scheme)
       end[i] = {constant<4>(flow.mesh.position[vertex[i]].x), constant<4>(flow.mesh.position[vertex[i]].y),
                 variable<4>(flow.u(vertex[i], kVelocityX), 2 * i),
                 variable<4>(flow.u(vertex[i], kVelocityY), 2 * i + 1)};
-    const auto force = slip_force(flow.fluid.geometry, end, e.friction, e.wall);
+    const auto force = slip_force(flow.fluid.geometry, end, porosity_at(flow, e.from, e.to), e.friction, e.wall);
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
         add(3 * vertex[row / 2] + row % 2, 3 * vertex[column / 2] + column % 2,

@@ -31,9 +31,11 @@ void add_boundary(const Flow& flow, std::span<const double> unknown, std::span<d
   };
   const Geometry geometry = flow.fluid.geometry;
   for (const OpenEdge& e : flow.open)
-    add(e.from, e.to, pressure_force<double>(geometry, {end(e.from), end(e.to)}, e.pressure));
+    add(e.from, e.to,
+        pressure_force<double>(geometry, {end(e.from), end(e.to)}, porosity_at(flow, e.from, e.to), e.pressure));
   for (const SlipEdge& e : flow.slip)
-    add(e.from, e.to, slip_force<double>(geometry, {end(e.from), end(e.to)}, e.friction, e.wall));
+    add(e.from, e.to,
+        slip_force<double>(geometry, {end(e.from), end(e.to)}, porosity_at(flow, e.from, e.to), e.friction, e.wall));
 }
 
 void close(const Flow& flow, std::span<const double> unknown, std::span<double> residual) {
@@ -47,6 +49,7 @@ void close(const Flow& flow, std::span<const double> unknown, std::span<double> 
 void pack(PackedFlow& packed, const Flow& flow, const TimeScheme& scheme) {
   const std::size_t vertices = flow.mesh.vertices(), triangles = flow.mesh.triangles();
   packed.rate = scheme.rate;
+  packed.unsteadiness = scheme.unsteadiness;
   packed.vertex.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
     const base::Vec2 history = scheme.history.empty() ? base::Vec2{} : scheme.history[v];

@@ -33,7 +33,8 @@ struct PackedFlow {
   std::vector<std::int32_t>
       corner;  ///< vertices of the triangles, by triangle; padded with the last one, (3 x padded triangles)
   std::int32_t triangles = 0;
-  double rate = 0;  ///< [1/s]
+  double rate = 0;          ///< [1/s]
+  double unsteadiness = 0;  ///< [1/s]
 };
 
 void pack(PackedFlow& packed, const Flow& flow, const TimeScheme& scheme);

@@ -26,6 +26,7 @@ void add_triangles(const Properties& fluid, const PackedFlow& packed, const doub
   for (std::int32_t first = 0; first < packed.triangles; first += kWidth) {
     ElementInput<Lanes> in;
     in.rate = packed.rate;
+    in.unsteadiness = packed.unsteadiness;
     std::array<Lanes, 3> x, y;
     std::array<Lanes, kUnknowns> u;
     for (int i = 0; i < 3; ++i)

@@ -125,9 +125,11 @@ void add_boundary(System& system, const Flow& flow) {
       for (int c = 0; c < 2; ++c) add_edge(system, 3 * (i == 0 ? from : to) + c, from, to, force[i][c]);
   };
   for (const OpenEdge& e : flow.open)
-    add(e.from, e.to, pressure_force(geometry, ends_of(flow, e.from, e.to), e.pressure));
+    add(e.from, e.to,
+        pressure_force(geometry, ends_of(flow, e.from, e.to), porosity_at(flow, e.from, e.to), e.pressure));
   for (const SlipEdge& e : flow.slip)
-    add(e.from, e.to, slip_force(geometry, ends_of(flow, e.from, e.to), e.friction, e.wall));
+    add(e.from, e.to,
+        slip_force(geometry, ends_of(flow, e.from, e.to), porosity_at(flow, e.from, e.to), e.friction, e.wall));
 }
 
 void add_surface(System& system, const Flow& flow, const FreeSurface& surface, const std::vector<double>& before,
@@ -138,7 +140,8 @@ void add_surface(System& system, const Flow& flow, const FreeSurface& surface, c
     // The domain lies to the left of an edge from the right to the left.
     const std::int32_t left = surface.vertex[s], right = surface.vertex[s + 1];
     const auto edge = ends_of(flow, right, left);
-    const auto force = surface_force(geometry, edge, surface.tension, surface.outside_pressure);
+    const auto force =
+        surface_force(geometry, edge, porosity_at(flow, right, left), surface.tension, surface.outside_pressure);
     for (int i = 0; i < 2; ++i)
       for (int c = 0; c < 2; ++c) add_edge(system, 3 * (i == 0 ? right : left) + c, right, left, force[i][c]);
 
@@ -153,7 +156,8 @@ void add_surface(System& system, const Flow& flow, const FreeSurface& surface, c
     const double h = surface.height.back(), pressure = surface.tension / h;
     const int height = system.height(static_cast<std::int32_t>(count) - 1);
     for (const auto& [from, to] : surface.outflow) {
-      const auto force = pressure_force(geometry, ends_of(flow, from, to), {pressure, pressure});
+      const auto force =
+          pressure_force(geometry, ends_of(flow, from, to), porosity_at(flow, from, to), {pressure, pressure});
       for (int i = 0; i < 2; ++i)
         for (int c = 0; c < 2; ++c) {
           const int equation = 3 * (i == 0 ? from : to) + c;

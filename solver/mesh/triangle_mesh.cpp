@@ -30,9 +30,12 @@ std::vector<BoundaryEdge> boundary_of(std::span<const std::array<std::int32_t, 3
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
-    if (end - i > 2)
-      throw std::logic_error("mesh: the edge between vertices " + std::to_string(sides[i].low) + " and " +
-                             std::to_string(sides[i].high) + " has more than two triangles");
+    const auto between = [&] {
+      return "between vertices " + std::to_string(sides[i].low) + " and " + std::to_string(sides[i].high);
+    };
+    if (end - i > 2) throw std::logic_error("mesh: the edge " + between() + " has more than two triangles");
+    if (end - i == 2 && sides[i].from == sides[i + 1].from)
+      throw std::logic_error("mesh: the triangles at the edge " + between() + " lie over each other");
     if (end - i == 1) {
       const std::int32_t from = sides[i].from, to = from == sides[i].low ? sides[i].high : sides[i].low;
       boundary.push_back({from, to, sides[i].triangle, tag_of(position[from], position[to])});

@@ -35,7 +35,7 @@ inline double doubled_area(base::Vec2 a, base::Vec2 b, base::Vec2 c) {
 }
 
 /// The boundary edges of the triangles, each with the tag that `tag_of` says for it from the places of its two ends.
-/// Throws std::logic_error when an edge has more than two triangles.
+/// Throws std::logic_error when an edge has more than two triangles, or two that turn along it in the same sense.
 std::vector<BoundaryEdge> boundary_of(std::span<const std::array<std::int32_t, 3>> triangles,
                                       std::span<const base::Vec2> position,
                                       const std::function<std::int32_t(base::Vec2 from, base::Vec2 to)>& tag_of);
