@@ -125,7 +125,9 @@ void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
         face.corner[i] = mesh.at(corner[i]);
         face.speed[i] = norm(vec2(velocity, static_cast<std::size_t>(corner[i])));
       }
-      if (!meet(panel.view, around(face.corner))) continue;
+      // A flow that diverged may hold what is no number: such a triangle stays white.
+      const bool known = std::ranges::all_of(face.speed, [](double speed) { return std::isfinite(speed); });
+      if (!known || !meet(panel.view, around(face.corner))) continue;
       figure.full = std::max(figure.full, *std::ranges::max_element(face.speed));
       seen[k].push_back(t);
       panel.faces.push_back(face);

@@ -82,8 +82,8 @@ TEST(SpeedOnPaper, HasNoHairsBetweenTrianglesOrBands) {
   double full = 0;
   const Picture even = speeds_of([](Vec2) { return Vec2{1, 0}; }, full);
   for (const std::uint32_t pixel : even.pixels) EXPECT_LT(difference(pixel, colour_of(1)), 0.03);
-  // Speeds that grow to the right: no pixel is lighter than its neighbour on the left.
-  const Picture ramp = speeds_of([](Vec2 p) { return Vec2{1 + p.x, 0}; }, full);
+  // Speeds that grow to the right, their bands oblique to the pixels: none is lighter than its neighbour on the left.
+  const Picture ramp = speeds_of([](Vec2 p) { return Vec2{1 + p.x + 0.37 * p.y, 0}; }, full);
   for (int y = 2; y < ramp.height - 2; ++y) {
     for (int x = 3; x < ramp.width - 2; ++x) {
       const auto green = [&](int column) { return static_cast<int>(ramp.at(column, y) >> 8 & 255); };
@@ -120,6 +120,19 @@ TEST(FlowPicture, IsAWholeFileOfEitherFormatWithItsTexts) {
   }
   EXPECT_THAT(picture_of(flow_figure(FlowFigureKind::mesh, {straight_jet()}, {}), PictureFormat::svg),
               HasSubstr("21 vertices and 24 triangles"));
+}
+
+TEST(FlowPicture, APanelIsClearOfTheOneBelowIt) {
+  for (const FlowFigureKind kind : kKinds) {
+    const auto picture_with = [&](const std::vector<FlowOfRun>& runs) {
+      return picture_from_png(picture_of(flow_figure(kind, runs, {}), PictureFormat::png));
+    };
+    const Picture one = picture_with({straight_jet()}), two = picture_with({straight_jet(), straight_jet()});
+    const int below = 100;  // pixels: what is said below the panels
+    for (int y = 0; y < one.height - below; ++y) {
+      for (int x = 0; x < one.width; ++x) ASSERT_EQ(one.at(x, y), two.at(x, y)) << x << " " << y;
+    }
+  }
 }
 
 TEST(FlowPicture, IsTheSameForTheSameFigure) {

@@ -134,6 +134,15 @@ TEST(FlowFigure, FluidAtRestHasNoArrows) {
   EXPECT_THAT(figure.panels.at(0).arrows, IsEmpty());
 }
 
+TEST(FlowFigure, WhatIsNoNumberIsLeftOut) {
+  FlowOfRun run = straight_jet();
+  std::get<std::vector<double>>(run.frame.vertices[1].values)[0] =
+      std::nan("");  // the lower left corner, of 2 triangles
+  const FlowFigure figure = flow_figure(FlowFigureKind::velocity, {run}, kAll);
+  EXPECT_EQ(figure.panels.at(0).faces.size(), 22u);
+  EXPECT_EQ(figure.full, 2);
+}
+
 TEST(FlowFigure, TheDefaultWindowIsAroundTheLipAndEndsAtTheFluid) {
   const View small = default_view(straight_jet());
   EXPECT_NEAR(small.left, -1.1, 1e-12);
