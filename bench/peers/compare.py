@@ -11,18 +11,15 @@ or a program that is not there, 130 interrupted; the tables then hold the runs t
 """
 
 import argparse
-import os
-import platform
-import re
 import shutil
 import signal
 import sys
 import tempfile
 from pathlib import Path
 
-from programs import HERE, OUR_USUAL, REFERENCE_STIFFNESS, ROOT, Failed, Scene, missing, our_version
+from programs import HERE, OUR_USUAL, REFERENCE_STIFFNESS, ROOT, Failed, Scene, machine, missing, our_version
 from report import print_cost, print_force
-from tables import block_mean, read_csv, recorded, write_csv, write_text
+from tables import block_mean, read_csv, recorded, write_csv
 
 COST = ["code", "version", "setting", "ranks", "solves", "kn", "dt", "simulated", "steps", "cpu", "cpu_per_s",
         "wall_per_s", "overlap_p999", "overlap_mean", "overlap_max", "contacts", "force_mean", "force_se",
@@ -42,14 +39,6 @@ EXPLODED, SOUND = 10, 2
 
 def said(text):
     print(text, flush=True)
-
-
-def machine(path):
-    """What the figures were measured on."""
-    model = re.search(r"model name\s*: (.+)", Path("/proc/cpuinfo").read_text())
-    load = " ".join(f"{v:.2f}" for v in os.getloadavg())
-    write_text(path, f"{model[1] if model else platform.processor()}, {os.cpu_count()} cores; {platform.system()} "
-                     f"{platform.release()}; load at the start {load}; seapile {our_version()}\n")
 
 
 def scene(options, folder, seed, substeps, sweeps=()):

@@ -5,10 +5,13 @@ import io
 import json
 import math
 import os
+import platform
 import re
 import shutil
 import subprocess
 from pathlib import Path
+
+from tables import write_text
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -162,3 +165,11 @@ def version(text):
 def our_version():
     git = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"], capture_output=True, text=True)
     return git.stdout.strip() or "unknown"
+
+
+def machine(path):
+    """What the figures were measured on."""
+    model = re.search(r"model name\s*: (.+)", Path("/proc/cpuinfo").read_text())
+    load = " ".join(f"{v:.2f}" for v in os.getloadavg())
+    write_text(path, f"{model[1] if model else platform.processor()}, {os.cpu_count()} cores; {platform.system()} "
+                     f"{platform.release()}; load at the start {load}; seapile {our_version()}\n")
