@@ -60,6 +60,7 @@ Stepped stepped(const PileBox& box, const mesh::TriangleMesh& mesh, const Option
   solver.tolerance = direct ? kDirectTolerance : options.tolerance;
   solver.instructions = instructions_of(options.instructions);
   fluid::Past past;
+  const std::vector<double> share = shares(box, mesh);
   // At rest before: what is held moves from now on.
   fluid::Flow before = run.flow;
   std::ranges::fill(before.unknown, 0.0);
@@ -67,7 +68,7 @@ Stepped stepped(const PileBox& box, const mesh::TriangleMesh& mesh, const Option
   for (int n = 1; n <= steps; ++n) {
     double cpu = cpu_seconds(), wall = wall_seconds();
     const auto pause = [&] { run.cpu += cpu_seconds() - cpu, run.wall += wall_seconds() - wall; };
-    move(box, mesh, n * options.dt * box.speed, run.flow);
+    move(mesh, share, n * options.dt * box.speed, run.flow.mesh);
     pause();
     fill_bed(box, run.flow);
     cpu = cpu_seconds(), wall = wall_seconds();

@@ -39,13 +39,6 @@ mesh::TriangleMesh generated(const PileBox& box, double scale) {
                         [&](Vec2 at) { return scale * std::min(box.far, box.near + kGrowth * distance(box, at)); });
 }
 
-/// Share of the pile's way that a vertex goes.
-double follows(const PileBox& box, Vec2 at) {
-  const double shoulder = -box.shoulder(), tip = -box.depth, half = box.width / 2;
-  const double down = at.y > shoulder ? at.y / shoulder : at.y < tip ? (at.y + box.height) / (tip + box.height) : 1;
-  return down * std::min(1.0, (half - std::abs(at.x)) / (half - box.radius));
-}
-
 double porosity(Vec2 at) {
   const double bed = kBedPorosity + 0.04 * std::sin(5 * at.x) * std::cos(4 * at.y);
   const double share = 0.5 * (1 - std::tanh((at.y + 2) / 0.2));  // the bed's surface, at half the height
@@ -90,11 +83,19 @@ fluid::Flow flow_of(const PileBox& box, mesh::TriangleMesh mesh) {
   return flow;
 }
 
-void move(const PileBox& box, const mesh::TriangleMesh& at_first, double travel, fluid::Flow& flow) {
-  for (std::size_t v = 0; v < at_first.vertices(); ++v) {
-    const Vec2 from = at_first.position[v];
-    flow.mesh.position[v] = {from.x, from.y - travel * follows(box, from)};
+std::vector<double> shares(const PileBox& box, const mesh::TriangleMesh& at_first) {
+  const double shoulder = -box.shoulder(), tip = -box.depth, half = box.width / 2;
+  std::vector<double> share;
+  for (const Vec2 at : at_first.position) {
+    const double down = at.y > shoulder ? at.y / shoulder : at.y < tip ? (at.y + box.height) / (tip + box.height) : 1;
+    share.push_back(down * std::min(1.0, (half - std::abs(at.x)) / (half - box.radius)));
   }
+  return share;
+}
+
+void move(const mesh::TriangleMesh& at_first, const std::vector<double>& share, double travel,
+          mesh::TriangleMesh& mesh) {
+  for (std::size_t v = 0; v < at_first.vertices(); ++v) mesh.position[v].y = at_first.position[v].y - travel * share[v];
 }
 
 void fill_bed(const PileBox& box, fluid::Flow& flow) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "solver/fluid/flow.h"
 
@@ -30,9 +31,13 @@ mesh::TriangleMesh mesh_of(const PileBox& box, int vertices);
 /// no traction at the top.
 fluid::Flow flow_of(const PileBox& box, mesh::TriangleMesh mesh);
 
-/// Brings the mesh to where it is when the pile has moved down by `travel` [m]. Vertices move vertically: with the pile
-/// below it and beside its tip, less towards top, bottom and walls, where they stay.
-void move(const PileBox& box, const mesh::TriangleMesh& at_first, double travel, fluid::Flow& flow);
+/// Share of the pile's way that each vertex of the mesh goes, vertically: 1 at the pile below its shoulders and beside
+/// them, less towards top, bottom and walls, where vertices stay.
+std::vector<double> shares(const PileBox& box, const mesh::TriangleMesh& at_first);
+
+/// Brings the mesh to where it is when the pile has moved down by `travel` [m].
+void move(const mesh::TriangleMesh& at_first, const std::vector<double>& share, double travel,
+          mesh::TriangleMesh& mesh);
 
 /// Sets porosity and drag to what they are where the vertices are.
 void fill_bed(const PileBox& box, fluid::Flow& flow);
