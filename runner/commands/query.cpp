@@ -37,7 +37,11 @@ int query(const QueryArguments& arguments) {
     return execute::kDone;
   }
   fmt::print("{}", present::text(table, arguments.format));
-  if (for_people && !study.empty() && !present::has_replicates(table)) fmt::print("\n{}\n", present::kOnePacking);
+  const auto kind = std::ranges::find(table.columns, "kind") - table.columns.begin();
+  const bool packings =
+      std::ranges::any_of(table.rows, [&](const auto& row) { return row[kind] != store::Cell{"flow"}; });
+  if (for_people && packings && !study.empty() && !present::has_replicates(table))
+    fmt::print("\n{}\n", present::kOnePacking);
   return execute::kDone;
 }
 

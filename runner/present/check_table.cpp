@@ -180,7 +180,7 @@ std::string check_text(const std::vector<Comparison>& comparisons) {
   return all;
 }
 
-std::string check_remark(const std::vector<Comparison>& comparisons) {
+std::string check_remark(const std::vector<Comparison>& comparisons, bool packings) {
   std::string lines;
   std::size_t most = 0, missing = 0, underpowered = 0;
   for (const Comparison& comparison : comparisons) {
@@ -192,7 +192,7 @@ std::string check_remark(const std::vector<Comparison>& comparisons) {
   }
   if (most > 1)
     lines += fmt::format("± is the {:g} % interval of the mean over n packings (Student's t)\n", 100 * kLevel);
-  if (most == 1) lines += std::string(kOnePacking) + "\n";
+  if (most == 1 && packings) lines += std::string(kOnePacking) + "\n";
   if (underpowered > 0)
     lines += "underpowered: half of the interval is wider than the tolerance; more packings decide\n";
   if (missing > 0) lines += "missing: a case has no completed result; `runner run` computes what the study lacks\n";

@@ -18,6 +18,7 @@ store::Table check_table(const std::vector<Comparison>& comparisons);
 std::string check_text(const std::vector<Comparison>& comparisons);
 
 /// What there is to say beside the tables, in whole lines: each failure, and how far the numbers carry.
-std::string check_remark(const std::vector<Comparison>& comparisons);
+/// `packings`: there are grains, so another packing is another number.
+std::string check_remark(const std::vector<Comparison>& comparisons, bool packings);
 
 }  // namespace seapile::present

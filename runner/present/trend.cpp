@@ -165,6 +165,7 @@ Trend trend(const Table& given, const TrendQuestion& question) {
   }
   const Runs found = runs_of(each, question);
   trend.left_out = found.left_out;
+  trend.packings = std::ranges::any_of(found.runs, [](const Run& run) { return run.bed != Cell{}; });
   for (const std::size_t column : found.label_columns) {
     trend.label_columns.push_back(each.columns[column]);
     trend.label_units.push_back(each.units[column]);
@@ -249,6 +250,8 @@ Grouped trend_table(const Trend& trend) {
 
 std::string trend_remark(const Trend& trend, Format format) {
   std::string lines = remark(trend_table(trend), format);
+  if (const auto at = lines.find(kOnePacking); !trend.packings && at != std::string::npos)
+    lines.erase(at, std::string_view(kOnePacking).size() + 1);
   if (trend.reference.empty()) return lines;
   if (format == Format::table) {
     lines += fmt::format("ratio: geometric mean over pairs on the same bed, {} over its value at {}\n",

@@ -41,6 +41,7 @@ struct Trend {
   std::vector<TrendCase> cases;                         ///< in the order of the study; those with a completed run
   std::string reference;                                ///< the axis' smallest value, "speed 0.06 m/s"; "": no effect
   std::size_t left_out = 0;                             ///< runs that are not completed or lack one of the numbers
+  bool packings = false;                                ///< its runs stand on beds, so another packing is another number
   std::size_t unpaired = 0;                             ///< runs without one at the reference on the same bed
 };
 

@@ -76,7 +76,7 @@ TEST(CheckText, EachSourceIsNamedOnce) {
 }
 
 TEST(CheckRemark, ALineForEachFailureWithTheReasonOrTheNote) {
-  const std::string lines = check_remark({published("flat", {40000}), published("conical", {30000}), accepted(30001)});
+  const std::string lines = check_remark({published("flat", {40000}), published("conical", {30000}), accepted(30001)}, true);
   EXPECT_THAT(lines, HasSubstr("FAILED  q_c, pile.tip=flat: 10.0 kPa away, tolerance 1.5 kPa (read off a figure)\n"));
   EXPECT_THAT(lines, HasSubstr("FAILED  q_c, pile.tip=flat: 0.001000 kPa away, tolerance 0.000030 kPa; accepted of run "
                                "0001 with grains=3 (looked at)\n"));
@@ -84,12 +84,13 @@ TEST(CheckRemark, ALineForEachFailureWithTheReasonOrTheNote) {
 }
 
 TEST(CheckRemark, SaysHowFarTheNumbersCarry) {
-  EXPECT_THAT(check_remark({published("flat", {30000})}), HasSubstr("one packing: no interval"));
-  EXPECT_THAT(check_remark({published("flat", {30000, 30001})}), HasSubstr("± is the 95 % interval"));
-  EXPECT_THAT(check_remark({published("flat", {20000, 40000})}), HasSubstr("underpowered: half of the interval"));
+  EXPECT_THAT(check_remark({published("flat", {30000})}, true), HasSubstr("one packing: no interval"));
+  EXPECT_EQ(check_remark({published("jet", {30000})}, false), "");
+  EXPECT_THAT(check_remark({published("flat", {30000, 30001})}, true), HasSubstr("± is the 95 % interval"));
+  EXPECT_THAT(check_remark({published("flat", {20000, 40000})}, true), HasSubstr("underpowered: half of the interval"));
   Comparison missing = published("flat", {});
   missing.case_ids = {kId};
-  EXPECT_THAT(check_remark({missing}), HasSubstr("missing: a case has no completed result"));
+  EXPECT_THAT(check_remark({missing}, true), HasSubstr("missing: a case has no completed result"));
 }
 
 TEST(CheckTable, HasEveryDigitInTheMetricsOwnUnit) {
