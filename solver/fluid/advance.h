@@ -48,6 +48,7 @@ struct FlowSolver {
   double tolerance = 1e-8;  ///< largest |R| by the size of its terms (see FlowReport) [-]
   base::InstructionSet instructions = base::InstructionSet::generic;
   /// The fastest rate at which the flow changes, for its stabilisation (element.h) [1/s]; absent: that of the scheme.
+  /// 0 is for flows that friction or drag rules: at Re 2e5, and in water that begins to move, nothing converges.
   std::optional<double> unsteadiness;
 
   KeptFactor factor;

@@ -23,7 +23,7 @@ struct NoMesh : std::runtime_error {
 
 /// Triangulates the polygon (counterclockwise, without holes) with edges of about size(x) [m]. The same polygon and
 /// sizes give the same mesh, bit for bit, on one installation of Gmsh. Not reentrant: Gmsh is one per process. Throws
-/// std::runtime_error with Gmsh's words when it cannot.
+/// NoMesh with Gmsh's words when it cannot.
 TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size);
 
 }  // namespace seapile::mesh

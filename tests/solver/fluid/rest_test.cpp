@@ -165,9 +165,9 @@ TEST(UniformFlow, StaysUniformOnAMovingMesh) {
           moved = std::max(moved, norm(flow.mesh_velocity[v]));
         }
         EXPECT_GT(moved, 1.5);  // Faster than the fluid.
-        // The iteration's tolerance is relative to rho u h^2/dt; the pressure's is rho u h/dt times a few digits.
+        // 1e-10 of the velocity, and of rho U L/dt = 1e5 Pa, the pressure that would stop the flow within a step.
         EXPECT_LT(error, 1e-10) << "step " << step;
-        EXPECT_LT(pressure_error(flow, 0), 1e-7);
+        EXPECT_LT(pressure_error(flow, 0), 1e-5);
       }
     }
 }

@@ -125,7 +125,7 @@ TEST(Generate, RefusesAPolygonThatCrossesItself) {
   try {
     generate(crossed, [](base::Vec2) { return 0.3; });
     ADD_FAILURE() << "was meshed";
-  } catch (const std::runtime_error& error) {
+  } catch (const NoMesh& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("Gmsh could not mesh the domain: "));
     std::printf("%s\n", error.what());
   }
