@@ -28,7 +28,7 @@ struct Moved {
   double now = 0, before = 0;
   Moved() = default;
   Moved(double both) : now(both), before(both) {}
-  Moved(double now_, double before_) : now(now_), before(before_) {}
+  Moved(double moved, double kept) : now(moved), before(kept) {}
   double value() const { return before; }
   Moved& operator+=(Moved a) { return *this = *this + a; }
   friend Moved operator+(Moved a, Moved b) { return {a.now + b.now, a.before + b.before}; }

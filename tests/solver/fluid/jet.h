@@ -9,8 +9,8 @@ struct Jet {
   double value = 0, x = 0, y = 0, t = 0, xx = 0, xy = 0, yy = 0;
   Jet() = default;
   Jet(double constant) : value(constant) {}
-  Jet(double value_, double x_, double y_, double t_, double xx_, double xy_, double yy_)
-      : value(value_), x(x_), y(y_), t(t_), xx(xx_), xy(xy_), yy(yy_) {}
+  Jet(double f, double fx, double fy, double ft, double fxx, double fxy, double fyy)
+      : value(f), x(fx), y(fy), t(ft), xx(fxx), xy(fxy), yy(fyy) {}
 
   friend Jet operator+(const Jet& a, const Jet& b) {
     return {a.value + b.value, a.x + b.x, a.y + b.y, a.t + b.t, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
@@ -42,8 +42,8 @@ struct Jet {
 /// A place and a time, as arguments of fields.
 struct Arguments {
   Jet x, y, t;
-  Arguments(double x_, double y_, double t_)
-      : x(x_, 1, 0, 0, 0, 0, 0), y(y_, 0, 1, 0, 0, 0, 0), t(t_, 0, 0, 1, 0, 0, 0) {}
+  Arguments(double at_x, double at_y, double at_t)
+      : x(at_x, 1, 0, 0, 0, 0, 0), y(at_y, 0, 1, 0, 0, 0, 0), t(at_t, 0, 0, 1, 0, 0, 0) {}
 };
 
 }  // namespace seapile::fluid::support
