@@ -185,38 +185,6 @@ TEST(ExactFlows, NaviersSlipShiftsTheProfile) {
           });
 }
 
-// Linear in y, so exact on any mesh: walls that move and stick, and walls that move and let slip.
-TEST(ExactFlows, CouettesProfileIsExact) {
-  constexpr double kWall = 0.8, kFriction = 0.6;
-  for (const double porosity : {1.0, 0.5})
-    for (const bool slip : {false, true}) {
-      Flow flow = at_rest(support::uneven_mesh(8, 6, 3), {1.4, kMu, Geometry::planar});
-      flow.porosity.assign(flow.mesh.vertices(), porosity);
-      for (const mesh::Side side : {mesh::kLeft, mesh::kRight, mesh::kBottom, mesh::kTop})
-        hold_side(flow, side, kVelocityY, 0);
-      // The shear stress on both ends, which are free of traction otherwise, is part of a linear profile: hold it
-      // there.
-      const double shear = slip ? kWall / (1 + 2 * kMu / kFriction) : kWall;
-      const auto exact = [&](base::Vec2 p) { return slip ? shear * (kMu / kFriction + p.y) : kWall * p.y; };
-      hold_side(flow, mesh::kLeft, kVelocityX, [&](base::Vec2 p) { return porosity * exact(p); });
-      open_side(flow, mesh::kRight, [](base::Vec2) { return 0.0; });
-      if (slip) {
-        let_slip(flow, mesh::kBottom, kFriction, 0);
-        let_slip(flow, mesh::kTop, kFriction, kWall);
-      } else {
-        hold_side(flow, mesh::kBottom, kVelocityX, 0);
-        hold_side(flow, mesh::kTop, kVelocityX, porosity * kWall);
-      }
-      ASSERT_TRUE(solve_steady(flow, nullptr).converged);
-      for (std::size_t v = 0; v < flow.mesh.vertices(); ++v) {
-        // Rounding, through a matrix of a few hundred unknowns.
-        EXPECT_NEAR(flow.unknown[3 * v], porosity * exact(flow.mesh.position[v]), 1e-11);
-        EXPECT_NEAR(flow.unknown[3 * v + 1], 0, 1e-11);
-        EXPECT_NEAR(flow.unknown[3 * v + 2], 0, 1e-10);
-      }
-    }
-}
-
 // An annulus whose inner wall moves along the axis: v = C ln(R/y), C = W/ln(R/a) when the fluid sticks to it.
 TEST(ExactFlows, AnInnerCylinderDragsTheFluidAlong) {
   constexpr double kInner = 0.4, kWall = 1.1, kFriction = 2;
