@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/base/fields.h"
+#include "solver/basin/basin_spec.h"
 #include "solver/fluid/jet_spec.h"
 #include "solver/grains/grains_spec.h"
 #include "solver/pile/pile_spec.h"
@@ -60,6 +61,7 @@ struct SceneSpec {
   base::OnlyNull fluid;                ///< only dry scenes yet
   grains::ContactSpec contact;         ///< the solver while driving
   std::optional<fluid::JetSpec> jet;   ///< present: the scene is this jet, and there is neither bed nor pile
+  std::optional<basin::BasinSpec> basin;  ///< present: the scene is this basin of water, and there is no bed
   friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
 };
 void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
@@ -68,6 +70,7 @@ void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
   visit(part("fluid", "null: dry"), scene.fluid);
   visit(part("contact", "the contact solver while driving"), scene.contact);
   visit(later(part("jet", "a jet from a die, instead of all the others; null: none")), scene.jet);
+  visit(later(part("basin", "a basin of water without grains, instead of all the others; null: none")), scene.basin);
 }
 
 /// What is kept of a run. Not part of a case's identity: it changes no bit of the simulation.
@@ -76,6 +79,8 @@ struct RecordSpec {
   std::vector<double> frames = {0, 0.2, 0.6, 1.2};  ///< depths d [m] at which a frame is kept
   double window = 10e-3;                   ///< [s] over which the contact forces of a frame are averaged
   double spacing = 0.05;                   ///< [m] of the grid for porosity and stress
+  double interval = 0.01;                  ///< [s] between two records of a basin
+  std::vector<double> times = {};          ///< [s] at which a frame of a basin is kept, beside its start and its end
   friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
 };
 void fields(auto& visit, SameAs<RecordSpec> auto& record) {
@@ -83,6 +88,9 @@ void fields(auto& visit, SameAs<RecordSpec> auto& record) {
   visit(Field{"frames", "m", between(-10, 1000), "depths at which a frame is kept"}, record.frames);
   visit(Field{"window", "s", between(0, 10), "time over which a frame's contact forces are averaged"}, record.window);
   visit(Field{"spacing", "m", positive(100), "spacing of the grid for porosity and stress"}, record.spacing);
+  visit(later(Field{"interval", "s", positive(1e4), "time between two records of a basin"}), record.interval);
+  visit(later(Field{"times", "s", between(0, 1e6), "times at which a frame of a basin is kept, beside start and end"}),
+        record.times);
 }
 
 }  // namespace seapile::scene
