@@ -65,10 +65,28 @@ std::vector<base::Vec2> level_top(const BasinSpec& spec, const UnstructuredMesh&
   return top;
 }
 
+/// Heights of the rows' edges, each row as much higher than the one below it as all others.
+std::vector<double> rows_of(const StructuredMesh& grid, double depth) {
+  const auto count = static_cast<int>(grid.rows);
+  if (grid.bottom_row == 1) return mesh::even(kBottom, depth, count);
+  const auto heights = [&](double growth) {
+    std::vector<double> y{kBottom};
+    for (double row = grid.bottom_row * depth / count; static_cast<int>(y.size()) <= count; row *= growth)
+      y.push_back(y.back() + row);
+    return y;
+  };
+  double low = 1, high = 2;
+  while (heights(high).back() < depth) high *= 2;
+  for (int i = 0; i < 100; ++i) (heights(0.5 * (low + high)).back() < depth ? low : high) = 0.5 * (low + high);
+  std::vector<double> y = heights(low);
+  y.back() = depth;
+  return y;
+}
+
 mesh::TriangleMesh first_mesh(const BasinSpec& spec) {
   if (const auto* grid = std::get_if<StructuredMesh>(&spec.mesh.pattern)) {
     const std::vector<double> x = mesh::even(-0.5 * spec.width, 0.5 * spec.width, static_cast<int>(grid->columns)),
-                              y = mesh::even(kBottom, spec.depth, static_cast<int>(grid->rows));
+                              y = rows_of(*grid, spec.depth);
     return mesh::rectangle(x, y, mesh::Diagonals::mirrored);
   }
   return mesh_for(spec, level_top(spec, std::get<UnstructuredMesh>(spec.mesh.pattern)), tip_at(spec, 0));
@@ -209,8 +227,7 @@ void place(Basin& basin, double tip) {
   const std::vector<double> dy = domain.motion.displacements(lifted, tip - domain.reference_tip);
   for (std::size_t v = 0; v < dy.size(); ++v)
     basin.flow.mesh.position[v] = {domain.reference[v].x, domain.reference[v].y + dy[v]};
-  for (std::size_t s = 0; s < lifted.size(); ++s)
-    basin.flow.mesh.position[basin.top.vertex[s]].y = basin.top.height[s];
+  for (std::size_t s = 0; s < lifted.size(); ++s) basin.flow.mesh.position[basin.top.vertex[s]].y = basin.top.height[s];
 }
 
 void set_outside(Basin& basin) {

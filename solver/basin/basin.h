@@ -14,19 +14,20 @@
 #include "solver/fluid/free_surface.h"
 #include "solver/mesh/motion.h"
 #include "solver/mesh/quality.h"
+#include "solver/pile/pile.h"
 
 namespace seapile::basin {
 
 /// What the basin's mesh is, between two remeshes: everything that depends on the mesh alone.
 struct Domain {
-  std::vector<base::Vec2> reference;            ///< places when the mesh was made [m], (vertices)
-  std::vector<double> reference_height;         ///< of the surface then [m], (surface vertices)
-  double reference_tip = 0;                     ///< height of the tip's lowest point then [m]
-  mesh::MeshMotion motion;                      ///< from the reference places
-  SectionFlux flux;                             ///< of the conservative update
-  std::vector<std::int32_t> wetted;             ///< vertices on tip and sleeves
-  std::vector<std::uint8_t> of_pile;            ///< 1 for them, (vertices)
-  std::vector<std::int32_t> at_pile;            ///< triangles that touch them
+  std::vector<base::Vec2> reference;     ///< places when the mesh was made [m], (vertices)
+  std::vector<double> reference_height;  ///< of the surface then [m], (surface vertices)
+  double reference_tip = 0;              ///< height of the tip's lowest point then [m]
+  mesh::MeshMotion motion;               ///< from the reference places
+  SectionFlux flux;                      ///< of the conservative update
+  std::vector<std::int32_t> wetted;      ///< vertices on tip and sleeves
+  std::vector<std::uint8_t> of_pile;     ///< 1 for them, (vertices)
+  std::vector<std::int32_t> at_pile;     ///< triangles that touch them
 };
 
 /// What a remesh did.
@@ -44,15 +45,15 @@ struct Basin {
   /// Heights and vertices of the top; with a fixed top it is a line that stays, and absent from what is solved.
   fluid::FreeSurface top;
   Domain domain;
-  fluid::Past past;
-  std::vector<double> past_tip;  ///< heights of the tip at the levels of `past` [m]
-  fluid::FlowSolver solver;
+  fluid::Past past = {};
+  std::vector<double> past_tip = {};  ///< heights of the tip at the levels of `past` [m]
+  fluid::FlowSolver solver = {};
   std::array<double, 2> pile_force{};  ///< of the water on the pile in the last step, without the hydrostatic one [N/m]
-  double volume_at_start = 0;    ///< of the water [m2]
-  std::int64_t step = 0;         ///< steps done
-  std::int64_t iterations = 0;   ///< corrections so far
+  double volume_at_start = 0;          ///< of the water [m2]
+  std::int64_t step = 0;               ///< steps done
+  std::int64_t iterations = 0;         ///< corrections so far
   std::int64_t last_iterations = 0;
-  std::vector<RemeshReport> remeshes;  ///< so far
+  std::vector<RemeshReport> remeshes = {};  ///< so far
 };
 
 /// The basin at its start: at rest, with its surface as the scene says. Throws mesh::NoMesh.

@@ -67,8 +67,8 @@ void remesh(Basin& basin) {
       if (!fresh.flow.held[3 * v + c]) fresh.flow.unknown[3 * v + c] = after[v];
   }
   // The water on the pile has the pile's velocity.
-  const auto carried = [](const fluid::Flow& flow) {
-    return [&flow](std::int32_t v) { return flow.held[3 * v + kVelocityY] != 0; };
+  const auto carried = [](const fluid::Flow& one) {
+    return [&one](std::int32_t v) { return one.held[3 * v + kVelocityY] != 0; };
   };
   if (const auto v = std::ranges::find_if(basin.domain.wetted, carried(basin.flow)); v != basin.domain.wetted.end())
     for (const std::int32_t w : fresh.domain.wetted)

@@ -1,9 +1,9 @@
 // A new mesh for a basin, and the flow on it.
 //
-// The surface keeps its vertices, so that its heights, and the water's volume, are the same to the last bit. Velocities are
-// brought over by projection or interpolation (mesh/transfer.h), pressures by interpolation. What is brought over is not
-// quite free of divergence on the new mesh: the next step begins anew with an Euler step, and its pressure bears what that
-// puts right.
+// The surface keeps its vertices, so that its heights, and the water's volume, are the same to the last bit. Velocities
+// are brought over by projection or interpolation (mesh/transfer.h), pressures by interpolation. What is brought over
+// is not quite free of divergence on the new mesh: the next step begins anew with an Euler step, and its pressure bears
+// what that puts right.
 #pragma once
 
 #include "solver/basin/basin.h"

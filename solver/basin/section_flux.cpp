@@ -6,8 +6,8 @@
 namespace seapile::basin {
 namespace {
 
-/// Twice the integrals of the three barycentric coordinates over the part of a triangle with first <= x <= last, by twice its
-/// area. `x`: of its corners.
+/// Twice the integrals of the three barycentric coordinates over the part of a triangle with first <= x <= last, by
+/// twice its area. `x`: of its corners.
 std::array<double, 3> share_between(const std::array<double, 3>& x, double first, double last) {
   // The part as a polygon in barycentric coordinates, cut by two verticals.
   using Point = std::array<double, 3>;

@@ -51,8 +51,7 @@ class Way {
     if (!basin_.spec.surface) return;
     std::vector<double> unknown = by_flow ? basin_.flow.unknown : basin_.past.level[0].unknown;
     if (!by_flow && second_)
-      for (std::size_t i = 0; i < unknown.size(); ++i)
-        unknown[i] = 2 * unknown[i] - basin_.past.level[1].unknown[i];
+      for (std::size_t i = 0; i < unknown.size(); ++i) unknown[i] = 2 * unknown[i] - basin_.past.level[1].unknown[i];
     if (basin_.spec.surface->scheme == SurfaceScheme::conservative)
       by_sections(unknown);
     else
@@ -105,8 +104,8 @@ class Way {
       lift = fluid::volume_correction(
           top, top.scheme == fluid::KinematicScheme::upwinded ? velocity : levels_[0].interstitial, displaced);
     }
-    top.height = fluid::advanced_height(top, levels_, dt_, lift,
-                                        by_flow ? std::span<const base::Vec2>(velocity) : std::span<const base::Vec2>{});
+    top.height = fluid::advanced_height(
+        top, levels_, dt_, lift, by_flow ? std::span<const base::Vec2>(velocity) : std::span<const base::Vec2>{});
   }
 
   Basin& basin_;
@@ -151,8 +150,8 @@ std::string step(Basin& basin, base::Profile& profile) {
   if (!report.converged) return fail(way.objection().empty() ? report.reason : way.objection());
 
   if (basin.spec.pile)
-    basin.pile_force = fluid::force_on(flow, fluid::scheme_of(basin.past, basin.solver), basin.domain.at_pile,
-                                       basin.domain.of_pile);
+    basin.pile_force =
+        fluid::force_on(flow, fluid::scheme_of(basin.past, basin.solver), basin.domain.at_pile, basin.domain.of_pile);
   ++basin.step;
   basin.last_iterations = report.iterations;
   basin.iterations += report.iterations;

@@ -6,9 +6,9 @@
 //   4 flow      is solved on the moved domain                               fluid/advance.h
 //   5 mesh      is made anew where its triangles have become bad, and the flow brought over     remesh.h
 //
-// Thesis, Algorithm 1, in the order that keeps mass and mesh velocity consistent (physics 8.20): the thesis solves first and
-// moves afterwards. 2 to 4 depend on each other: they are iterated together (`iterated`), or 2 and 3 go first with the
-// velocities before, extrapolated. Both conserve volume with the conservative update.
+// Thesis, Algorithm 1, in the order that keeps mass and mesh velocity consistent (physics 8.20): the thesis solves
+// first and moves afterwards. 2 to 4 depend on each other: they are iterated together (`iterated`), or 2 and 3 go first
+// with the velocities before, extrapolated. Both conserve volume with the conservative update.
 #pragma once
 
 #include <string>

@@ -104,8 +104,8 @@ RunResult run_basin(const basin::BasinSpec& spec, const scene::RecordSpec& recor
   RunResult result;
   try {
     const base::InstructionSet instructions = instructions_of(execution.simd);
-    Run run(resume_from.empty() ? basin::filled(spec, instructions) : restored(spec, instructions, resume_from),
-            record, records_so_far, hooks);
+    Run run(resume_from.empty() ? basin::filled(spec, instructions) : restored(spec, instructions, resume_from), record,
+            records_so_far, hooks);
     result = run.run(profile);
   } catch (const mesh::NoMesh& error) {
     result.outcome = Outcome::diverged;

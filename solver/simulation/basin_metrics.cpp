@@ -23,11 +23,10 @@ void add_quality(std::vector<Metric>& metrics, const basin::Basin& basin, const 
   }
   metrics.push_back({"lowest_shape", shape, "-", "smallest shape quality q of a triangle in any record"});
   metrics.push_back({"smallest_angle", angle, "rad", "smallest angle of a triangle in any record"});
-  metrics.push_back({"largest_share_below_half", largest(records, [](const FlowRecord& r) { return r.below_half; }), "-",
-                     "largest share of triangles with q < 0.5 in a record"});
-  metrics.push_back({"largest_share_small_angles",
-                     largest(records, [](const FlowRecord& r) { return r.small_angles; }), "-",
-                     "largest share of triangles with an angle below 30 degrees in a record"});
+  metrics.push_back({"largest_share_below_half", largest(records, [](const FlowRecord& r) { return r.below_half; }),
+                     "-", "largest share of triangles with q < 0.5 in a record"});
+  metrics.push_back({"largest_share_small_angles", largest(records, [](const FlowRecord& r) { return r.small_angles; }),
+                     "-", "largest share of triangles with an angle below 30 degrees in a record"});
   metrics.push_back({"meshes", static_cast<double>(1 + basin.remeshes.size()), "-", "meshes made"});
   if (basin.remeshes.empty()) return;
   double after = 1, difference = 0, energy = 0, momentum = 0;
@@ -38,7 +37,8 @@ void add_quality(std::vector<Metric>& metrics, const basin::Basin& basin, const 
     momentum = std::max(momentum, r.momentum_change);
   }
   metrics.push_back({"lowest_shape_after_remesh", after, "-", "smallest q of a triangle right after a remesh"});
-  metrics.push_back({"transfer_difference", difference, "-", "largest change of the velocity in a remesh, L2, relative"});
+  metrics.push_back(
+      {"transfer_difference", difference, "-", "largest change of the velocity in a remesh, L2, relative"});
   metrics.push_back({"transfer_energy", energy, "-", "largest change of the kinetic energy in a remesh, relative"});
   metrics.push_back({"transfer_momentum", momentum, "-",
                      "largest change of the velocity's integral in a remesh, by its L2 norm and the root of the area"});
@@ -71,8 +71,8 @@ std::vector<Metric> metrics_of(const basin::Basin& basin, const Records& records
       {"triangles", static_cast<double>(basin.flow.mesh.triangles()), "-", "triangles of the last mesh"}};
   if (records.empty()) return metrics;
   if (basin.spec.surface) {
-    metrics.push_back({"volume_drift", largest(records, [](const FlowRecord& r) { return std::abs(r.volume_error); }), "-",
-                       "largest change of the water's volume in a record, relative"});
+    metrics.push_back({"volume_drift", largest(records, [](const FlowRecord& r) { return std::abs(r.volume_error); }),
+                       "-", "largest change of the water's volume in a record, relative"});
     metrics.push_back({"highest", largest(records, [](const FlowRecord& r) { return r.highest; }), "m",
                        "highest point of the surface above the rest level in a record"});
     metrics.push_back({"largest_asymmetry", largest(records, [](const FlowRecord& r) { return r.asymmetry; }), "m",

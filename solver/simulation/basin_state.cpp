@@ -151,10 +151,8 @@ Basin restored(const basin::BasinSpec& spec, base::InstructionSet instructions, 
   basin.past.dt = spec.time.step;
   const auto vertices = static_cast<std::ptrdiff_t>(basin.flow.mesh.vertices());
   basin.flow.mesh_velocity = vectors(array_of<double>(state, "flow/mesh_velocity", 2 * vertices));
-  basin.top.height =
-      array_of<double>(state, "surface/height", static_cast<std::ptrdiff_t>(basin.top.vertex.size()));
-  basin.past_tip =
-      array_of<double>(state, "pile/past_tip", static_cast<std::ptrdiff_t>(basin.past.level.size()));
+  basin.top.height = array_of<double>(state, "surface/height", static_cast<std::ptrdiff_t>(basin.top.vertex.size()));
+  basin.past_tip = array_of<double>(state, "pile/past_tip", static_cast<std::ptrdiff_t>(basin.past.level.size()));
   const auto& force = array_of<double>(state, "pile/force", 2);
   basin.pile_force = {force[0], force[1]};
   const auto& steps = array_of<std::int64_t>(state, "basin/steps", 3);
