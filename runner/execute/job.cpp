@@ -77,7 +77,7 @@ store::RunHeader header_of(const Request& request) {
   header.scene_json = study::to_json(request.scene);
   header.bed_id = request.bed_id;
   header.bed_run = request.bed_run;
-  if (request.kind == "drive") header.record_json = study::to_json(request.record);
+  if (is_recorded(request.scene)) header.record_json = study::to_json(request.record, request.scene);
   header.parts = simulation::parts(request.scene);
   header.numerics = simulation::numerics_versions(request.scene);
   return header;
@@ -97,7 +97,7 @@ class Job {
     ++attempt_.count;
     attempt_.numerics = header_.numerics;
     attempt_.bed_run = request_.bed_run;
-    if (request_.kind == "drive") attempt_.record = request_.record;
+    attempt_.record = record_of_runs(request_.record, request_.scene);
     earlier_ = {attempt_.cpu_seconds, attempt_.wall_seconds};
     write_attempt(folder_, attempt_);
 
@@ -230,8 +230,8 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
     return kClaimHeld;
   }
   // Decided under the claim: another runner may have finished the case since the plan was made.
-  Asked asked{simulation::numerics_versions(request.scene), std::nullopt, request.bed_run};
-  if (request.kind == "drive") asked.record = request.record;
+  const Asked asked{simulation::numerics_versions(request.scene), record_of_runs(request.record, request.scene),
+                    request.bed_run};
   const Decision decision = decide(asked, read_history(request.root, request.case_id));
   if (decision.action == Action::fresh) return kDone;
   const std::string run = decision.run.empty() ? store::next_run(case_folder, false) : decision.run;
