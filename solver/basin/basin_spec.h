@@ -127,11 +127,14 @@ struct StructuredMesh {
   static constexpr const char* kName = "structured";
   std::int64_t columns = 192;  ///< across the width; even
   std::int64_t rows = 24;      ///< over the depth
+  double bottom_row = 1;       ///< height of the lowest row over that of an even one; the others grow evenly [-]
   friend bool operator==(const StructuredMesh&, const StructuredMesh&) = default;
 };
 void fields(auto& visit, SameAs<StructuredMesh> auto& mesh) {
   visit(Field{"columns", "-", between(2, 10000), "rectangles across the width, an even number"}, mesh.columns);
   visit(Field{"rows", "-", between(1, 10000), "rectangles over the depth"}, mesh.rows);
+  visit(Field{"bottom_row", "-", between(0.001, 1), "height of the lowest row over that of an even one"},
+        mesh.bottom_row);
 }
 
 /// Triangles by Gmsh, mirrored in the middle; finer near the pile.

@@ -1,6 +1,7 @@
 #include "solver/fluid/advance.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace seapile::fluid {
@@ -8,25 +9,6 @@ namespace {
 
 /// Differences that Anderson's acceleration looks back to.
 constexpr int kMostDifferences = 10;
-
-/// dv/dt = rate v + history from the levels of the past.
-TimeScheme scheme_of(const Past& past, TimeOrder order) {
-  TimeScheme scheme;
-  if (past.level.empty()) return scheme;
-  const auto& newest = past.level[0].interstitial;
-  scheme.history.resize(newest.size());
-  const double inverse = 1 / past.dt;
-  if (order == TimeOrder::first || past.level.size() < 2) {
-    scheme.rate = inverse;
-    for (std::size_t v = 0; v < newest.size(); ++v) scheme.history[v] = -inverse * newest[v];
-  } else {
-    const auto& older = past.level[1].interstitial;
-    scheme.rate = 1.5 * inverse;
-    for (std::size_t v = 0; v < newest.size(); ++v)
-      scheme.history[v] = (-2 * inverse) * newest[v] + (0.5 * inverse) * older[v];
-  }
-  return scheme;
-}
 
 /// What rounding leaves of the pressure's terms, by their size; ten times what a fluid at rest shows.
 constexpr double kRounding = 1e-14;
@@ -64,10 +46,13 @@ struct Measure {
 /// The iteration of one step from the state in flow.unknown.
 class Iteration {
  public:
-  Iteration(Flow& flow, FlowSolver& solver, base::Profile& profile)
+  Iteration(Flow& flow, const TimeScheme& scheme, FlowSolver& solver, const FollowFlow& follow, base::Profile& profile)
       : flow_(flow),
+        scheme_(scheme),
         solver_(solver),
+        follow_(follow),
         profile_(profile),
+        in_following_(follow ? profile.index("domain") : 0),
         in_residual_(profile.index("fluid residual")),
         in_solve_(profile.index("fluid solve")),
         measure_(flow, solver.packed.rate),
@@ -77,11 +62,12 @@ class Iteration {
 
   FlowReport run() {
     FlowReport report;
-    Eigen::VectorXd r = evaluate(), last_r, last_direction, last_u;
+    Eigen::VectorXd r, last_r, last_direction, last_u;
     Eigen::MatrixXd dr(size_, kMostDifferences), du(size_, kMostDifferences), dd(size_, kMostDifferences);
     Eigen::Map<Eigen::VectorXd> u(flow_.unknown.data(), size_);
     int stored = 0;
     for (;; ++report.iterations) {
+      if (!evaluate(r)) return report;
       const double norm = r.norm();
       report.residual = measure_.share(norm, flow_.unknown);
       if (!std::isfinite(norm)) return report;
@@ -110,21 +96,30 @@ class Iteration {
         step -= (du.leftCols(columns) + dd.leftCols(columns)) * gamma;
       }
       u += step;
-      r = evaluate();
     }
   }
 
  private:
-  Eigen::VectorXd evaluate() {
+  /// False when there is no domain for the unknowns.
+  bool evaluate(Eigen::VectorXd& weighted) {
+    if (follow_) {
+      const base::Stopwatch watch(profile_, in_following_);
+      if (!std::ranges::all_of(flow_.unknown, [](double u) { return std::isfinite(u); }) || !follow_(flow_))
+        return false;
+      pack(solver_.packed, flow_, scheme_);
+    }
     const base::Stopwatch watch(profile_, in_residual_);
     residual_of(flow_, solver_.packed, flow_.unknown, residual_, solver_.instructions);
-    return measure_.weighted(residual_);
+    weighted = measure_.weighted(residual_);
+    return true;
   }
 
   Flow& flow_;
+  const TimeScheme& scheme_;
   FlowSolver& solver_;
+  const FollowFlow& follow_;
   base::Profile& profile_;
-  std::size_t in_residual_, in_solve_;
+  std::size_t in_following_, in_residual_, in_solve_;
   Measure measure_;
   Eigen::Index size_;
   std::vector<double> residual_;
@@ -132,6 +127,26 @@ class Iteration {
 };
 
 }  // namespace
+
+TimeScheme scheme_of(const Past& past, const FlowSolver& solver) {
+  TimeScheme scheme;
+  scheme.unsteadiness = solver.unsteadiness.value_or(0);
+  if (past.level.empty()) return scheme;
+  const auto& newest = past.level[0].interstitial;
+  scheme.history.resize(newest.size());
+  const double inverse = 1 / past.dt;
+  if (solver.order == TimeOrder::first || past.level.size() < 2) {
+    scheme.rate = inverse;
+    for (std::size_t v = 0; v < newest.size(); ++v) scheme.history[v] = -inverse * newest[v];
+  } else {
+    const auto& older = past.level[1].interstitial;
+    scheme.rate = 1.5 * inverse;
+    for (std::size_t v = 0; v < newest.size(); ++v)
+      scheme.history[v] = (-2 * inverse) * newest[v] + (0.5 * inverse) * older[v];
+  }
+  scheme.unsteadiness = solver.unsteadiness.value_or(scheme.rate);
+  return scheme;
+}
 
 void remember(Past& past, const Flow& flow, double dt) {
   if (dt != past.dt) past.level.clear();
@@ -163,11 +178,11 @@ void set_rates(Flow& flow, const Past& past, TimeOrder order) {
   }
 }
 
-FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile) {
+FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile,
+                   const FollowFlow& follow) {
   const std::size_t in_packing = profile.index("fluid packing"), in_factor = profile.index("fluid factor");
   const std::vector<double> given = flow.unknown;
-  TimeScheme scheme = scheme_of(past, solver.order);
-  scheme.unsteadiness = solver.unsteadiness.value_or(scheme.rate);
+  const TimeScheme scheme = scheme_of(past, solver);
   {
     const base::Stopwatch watch(profile, in_packing);
     pack(solver.packed, flow, scheme);
@@ -195,10 +210,10 @@ FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profi
   const bool stale = solver.factor.empty() || solver.factor_rate != scheme.rate ||
                      solver.last_iterations > kManyIterations ||
                      solver.factor.matrix().rows() != static_cast<Eigen::Index>(given.size());
-  if (!stale || refactor()) report = Iteration(flow, solver, profile).run();
+  if (!stale || refactor()) report = Iteration(flow, scheme, solver, follow, profile).run();
   if (!report.converged && !fresh) {
     predict();
-    if (refactor()) report = Iteration(flow, solver, profile).run();
+    if (refactor()) report = Iteration(flow, scheme, solver, follow, profile).run();
   }
   report.refactored = fresh;
   solver.last_iterations = report.iterations;

@@ -12,9 +12,14 @@
 //   - when there is none, the rate of the scheme has changed, or the mesh is another one;
 //   - when the last step took more than kManyIterations;
 //   - when a step does not converge within kMostIterations: it begins again with a new one.
+//
+// Where the domain depends on the flow of the same step (a free surface), it is found by the same iteration: the domain is
+// made anew from the unknowns before each residual. A does not know of it; Anderson's acceleration makes up for that while
+// (omega dt)^2 of the fastest surface wave is small against 1.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,7 +82,16 @@ void remember(Past& past, const Flow& flow, double dt);
 /// and past: sets flow.mesh_velocity and flow.porosity_rate.
 void set_rates(Flow& flow, const Past& past, TimeOrder order);
 
+/// How the scheme makes dv/dt of the new level from those of the past.
+TimeScheme scheme_of(const Past& past, const FlowSolver& solver);
+
+/// Makes the domain that belongs to flow.unknown: places, velocities of the mesh, values that are held, outside pressures.
+/// False when there is none; the step then fails.
+using FollowFlow = std::function<bool(Flow&)>;
+
 /// Solves for the new level; `flow.unknown` holds the values that are held. On failure the unknowns are those given.
-FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile);
+/// `follow`: empty when the domain does not depend on the flow.
+FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile,
+                   const FollowFlow& follow = {});
 
 }  // namespace seapile::fluid

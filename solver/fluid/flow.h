@@ -29,6 +29,12 @@ struct SlipEdge {
   base::Vec2 wall;      ///< velocity of the wall [m/s]
 };
 
+/// An edge of a film that pulls at its ends with gamma along itself; where films end at walls they stand at 90 degrees.
+struct FilmEdge {
+  std::int32_t from = 0, to = 0;
+  double tension = 0;  ///< gamma [N/m]
+};
+
 /// The fluid. What a vertex does not hold is solved for; edges that are in no list are free of traction.
 struct Flow {
   mesh::TriangleMesh mesh;
@@ -37,6 +43,7 @@ struct Flow {
   std::vector<std::uint8_t> held;  ///< 1: the unknown keeps its value (a boundary condition), (3 vertices)
   std::vector<OpenEdge> open;
   std::vector<SlipEdge> slip;
+  std::vector<FilmEdge> film;
   std::vector<double> porosity;           ///< phi [-], (vertices)
   std::vector<double> porosity_rate;      ///< dphi/dt at the vertex [1/s], (vertices)
   std::vector<base::Vec2> mesh_velocity;  ///< w [m/s], (vertices)

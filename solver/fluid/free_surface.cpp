@@ -16,10 +16,12 @@ using Matrix = Eigen::SparseMatrix<double>;
 constexpr double kSteepest = 10;
 
 /// sum_j <tau_i tau_j> f_j = right, consistent mass matrix of linear functions over x.
-std::vector<double> projected(std::span<const double> x, std::span<const double> right) {
+std::vector<double> projected(const FreeSurface& surface, std::span<const double> right) {
+  const std::vector<double>& x = surface.x;
   const auto count = static_cast<Eigen::Index>(x.size());
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i + 1 < count; ++i) {
+    if (surface.gap == static_cast<std::size_t>(i)) continue;
     const double dx = x[i + 1] - x[i];
     for (int a = 0; a < 2; ++a)
       for (int b = 0; b < 2; ++b) entries.emplace_back(i + a, i + b, a == b ? dx / 3 : dx / 6);
@@ -32,7 +34,8 @@ std::vector<double> projected(std::span<const double> x, std::span<const double>
 }
 
 /// The upwinded weak form, implicit: a linear system for the new heights.
-std::vector<double> upwinded(const FreeSurface& surface, std::span<const SurfaceLevel> past, double dt, double lift) {
+std::vector<double> upwinded(const FreeSurface& surface, std::span<const SurfaceLevel> past, double dt, double lift,
+                             std::span<const base::Vec2> now) {
   const std::size_t count = surface.vertex.size();
   const bool second = past.size() >= 2;
   const double rate = (second ? 1.5 : 1) / dt;
@@ -42,7 +45,10 @@ std::vector<double> upwinded(const FreeSurface& surface, std::span<const Surface
   for (std::size_t s = 0; s < count; ++s) {
     const std::int32_t vertex = surface.vertex[s];
     before[s] = second ? (4 * past[0].height[s] - past[1].height[s]) / 3 : past[0].height[s];
-    v[s] = second ? 2 * past[0].interstitial[vertex] - past[1].interstitial[vertex] : past[0].interstitial[vertex];
+    if (!now.empty())
+      v[s] = now[vertex];
+    else
+      v[s] = second ? 2 * past[0].interstitial[vertex] - past[1].interstitial[vertex] : past[0].interstitial[vertex];
     v[s].y += lift;
   }
 
@@ -51,6 +57,7 @@ std::vector<double> upwinded(const FreeSurface& surface, std::span<const Surface
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (std::size_t s = 0; s + 1 < count; ++s) {
+    if (surface.gap == s) continue;
     const auto residual = [&](double h0, double h1) {
       return kinematic_residual<double>({EdgeEnd<double>{surface.x[s], h0, v[s].x, v[s].y},
                                          EdgeEnd<double>{surface.x[s + 1], h1, v[s + 1].x, v[s + 1].y}},
@@ -82,6 +89,7 @@ std::vector<double> galerkin(const FreeSurface& surface, const SurfaceLevel& pas
   const std::size_t count = surface.vertex.size();
   std::vector<double> right(count, 0);
   for (std::size_t s = 0; s + 1 < count; ++s) {
+    if (surface.gap == s) continue;
     const base::Vec2 a = past.interstitial[surface.vertex[s]], b = past.interstitial[surface.vertex[s + 1]];
     const auto residual =
         kinematic_residual<double>({EdgeEnd<double>{surface.x[s], past.height[s], a.x, a.y + lift},
@@ -89,7 +97,7 @@ std::vector<double> galerkin(const FreeSurface& surface, const SurfaceLevel& pas
                                    {0, 0}, {0, 0}, 0);
     for (int i = 0; i < 2; ++i) right[s + i] -= residual[i];
   }
-  const std::vector<double> rate = projected(surface.x, right);
+  const std::vector<double> rate = projected(surface, right);
   std::vector<double> height = past.height;
   for (std::size_t s = surface.pinned ? 1 : 0; s < count; ++s) height[s] += dt * rate[s];
   return height;
@@ -101,8 +109,9 @@ std::vector<double> differences(const FreeSurface& surface, const SurfaceLevel& 
   const std::size_t count = surface.vertex.size();
   std::vector<double> height = past.height;
   for (std::size_t s = surface.pinned ? 1 : 0; s < count; ++s) {
-    const base::Vec2 v = past.interstitial[surface.vertex[s == 0 ? 0 : s - 1]];
-    const bool inner = s > 0 && s + 1 < count;
+    const bool first = s == 0 || surface.gap == s - 1, last = s + 1 == count || surface.gap == s;
+    const base::Vec2 v = past.interstitial[surface.vertex[first ? s : s - 1]];
+    const bool inner = !first && !last;
     const double slope = inner ? (past.height[s] - past.height[s - 1]) / (surface.x[s] - surface.x[s - 1]) : 0;
     height[s] += dt * (v.y + lift - v.x * slope);
   }
@@ -123,8 +132,13 @@ FreeSurface surface_along(const mesh::TriangleMesh& mesh, std::int32_t tag, doub
   return surface;
 }
 
+double width_of(const FreeSurface& surface) {
+  const double all = surface.x.back() - surface.x.front();
+  return surface.gap ? all - (surface.x[*surface.gap + 1] - surface.x[*surface.gap]) : all;
+}
+
 std::vector<double> advanced_height(const FreeSurface& surface, std::span<const SurfaceLevel> past, double dt,
-                                    double lift) {
+                                    double lift, std::span<const base::Vec2> now) {
   switch (surface.scheme) {
     case KinematicScheme::galerkin:
       return galerkin(surface, past[0], dt, lift);
@@ -133,12 +147,13 @@ std::vector<double> advanced_height(const FreeSurface& surface, std::span<const 
     case KinematicScheme::upwinded:
       break;
   }
-  return upwinded(surface, past, dt, lift);
+  return upwinded(surface, past, dt, lift, now);
 }
 
 double flux_through(const FreeSurface& surface, Geometry geometry, std::span<const base::Vec2> interstitial) {
   double flux = 0;
   for (std::size_t s = 0; s + 1 < surface.vertex.size(); ++s) {
+    if (surface.gap == s) continue;
     const base::Vec2 a = interstitial[surface.vertex[s]], b = interstitial[surface.vertex[s + 1]];
     const double dx = surface.x[s + 1] - surface.x[s], dh = surface.height[s + 1] - surface.height[s];
     for (const double at : kGauss) {
@@ -152,7 +167,7 @@ double flux_through(const FreeSurface& surface, Geometry geometry, std::span<con
 }
 
 double volume_correction(const FreeSurface& surface, std::span<const base::Vec2> interstitial, double target) {
-  return (target - flux_through(surface, Geometry::planar, interstitial)) / (surface.x.back() - surface.x.front());
+  return (target - flux_through(surface, Geometry::planar, interstitial)) / width_of(surface);
 }
 
 std::vector<double> curvature(const FreeSurface& surface, Geometry geometry) {
@@ -160,6 +175,7 @@ std::vector<double> curvature(const FreeSurface& surface, Geometry geometry) {
   // sin of the angle of slope, on the edges; kappa is its derivative.
   std::vector<double> right(count, 0), sine(count - 1), cosine(count - 1);
   for (std::size_t s = 0; s + 1 < count; ++s) {
+    if (surface.gap == s) continue;
     const double dx = surface.x[s + 1] - surface.x[s], dh = surface.height[s + 1] - surface.height[s],
                  length = std::hypot(dx, dh);
     sine[s] = dh / length;
@@ -171,7 +187,7 @@ std::vector<double> curvature(const FreeSurface& surface, Geometry geometry) {
     right[0] -= sine.front();
     right[count - 1] += sine.back();
   }
-  std::vector<double> kappa = projected(surface.x, right);
+  std::vector<double> kappa = projected(surface, right);
   if (geometry == Geometry::planar) return kappa;
   for (std::size_t s = 0; s < count; ++s) {
     const double left = cosine[s == 0 ? 0 : s - 1], of_right = cosine[s + 1 == count ? s - 1 : s];
@@ -183,6 +199,7 @@ std::vector<double> curvature(const FreeSurface& surface, Geometry geometry) {
 double largest_leak(const FreeSurface& surface, std::span<const base::Vec2> interstitial, double from) {
   double largest = 0;
   for (std::size_t s = 0; s + 1 < surface.vertex.size(); ++s) {
+    if (surface.gap == s) continue;
     if (surface.x[s] < from) continue;
     const base::Vec2 v = 0.5 * (interstitial[surface.vertex[s]] + interstitial[surface.vertex[s + 1]]);
     const double dx = surface.x[s + 1] - surface.x[s], dh = surface.height[s + 1] - surface.height[s];
@@ -196,7 +213,8 @@ std::string objection(const FreeSurface& surface) {
     const std::string place = " at x = " + std::to_string(surface.x[s]);
     if (!std::isfinite(surface.height[s])) return "the surface's height is not finite" + place;
     if (!(surface.height[s] > surface.columns.bottom)) return "the surface has come down to the bottom" + place;
-    if (s > 0 && std::abs(surface.height[s] - surface.height[s - 1]) > kSteepest * (surface.x[s] - surface.x[s - 1]))
+    if (s > 0 && surface.gap != s - 1 &&
+        std::abs(surface.height[s] - surface.height[s - 1]) > kSteepest * (surface.x[s] - surface.x[s - 1]))
       return "the surface is too steep to be a graph" + place;
   }
   return {};

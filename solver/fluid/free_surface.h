@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ struct FreeSurface {
   std::vector<double> x;             ///< [m], (surface vertices)
   std::vector<double> height;        ///< h [m], (surface vertices)
   mesh::Columns columns;             ///< how the mesh hangs below it
+  /// Between this vertex and the next one there is no surface, but a body that stands in it; absent: one stretch.
+  std::optional<std::size_t> gap;
   bool pinned = false;               ///< the first vertex stays where it is: the lip of a die
   /// The ends of the film stand at 90 degrees to what they end at, as in the thesis (3.5); false: at the slope that
   /// they have.
@@ -58,9 +61,13 @@ struct SurfaceLevel {
   std::vector<double> height;                ///< [m]
 };
 
-/// The heights a time dt later. `lift`: added to v_y, as the volume correction asks (3.17) [m/s].
+/// Length of the surface along x, without the gap [m].
+double width_of(const FreeSurface& surface);
+
+/// The heights a time dt later. `lift`: added to v_y, as the volume correction asks (3.17) [m/s]. `now`: velocities at the new
+/// time, of the mesh's vertices, for the implicit scheme; empty: they are extrapolated.
 std::vector<double> advanced_height(const FreeSurface& surface, std::span<const SurfaceLevel> past, double dt,
-                                    double lift);
+                                    double lift, std::span<const base::Vec2> now = {});
 
 /// Flux through the surface, the integral of v.n over it, n out of the fluid [m2/s; m3/s per radian when axisymmetric].
 double flux_through(const FreeSurface& surface, Geometry geometry, std::span<const base::Vec2> interstitial);

@@ -36,6 +36,23 @@ void add_boundary(const Flow& flow, std::span<const double> unknown, std::span<d
   for (const SlipEdge& e : flow.slip)
     add(e.from, e.to,
         slip_force<double>(geometry, {end(e.from), end(e.to)}, porosity_at(flow, e.from, e.to), e.friction, e.wall));
+  for (const FilmEdge& e : flow.film)
+    add(e.from, e.to,
+        surface_force<double>(geometry, {end(e.from), end(e.to)}, porosity_at(flow, e.from, e.to), e.tension, 0));
+}
+
+/// Of one triangle, from the flow itself.
+std::array<double, kUnknowns> residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const double> unknown,
+                                          std::size_t triangle) {
+  const auto& vertex = flow.mesh.triangle[triangle];
+  std::array<double, 3> x, y;
+  std::array<double, kUnknowns> u;
+  for (int i = 0; i < 3; ++i) {
+    x[i] = flow.mesh.position[vertex[i]].x;
+    y[i] = flow.mesh.position[vertex[i]].y;
+    for (int c = 0; c < 3; ++c) u[3 * i + c] = unknown[3 * vertex[i] + c];
+  }
+  return element_residual(flow.fluid, input_of(flow, scheme, triangle), x, y, u);
 }
 
 void close(const Flow& flow, std::span<const double> unknown, std::span<double> residual) {
@@ -75,17 +92,22 @@ void residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const dou
   std::ranges::fill(residual, 0.0);
   for (std::size_t t = 0; t < flow.mesh.triangles(); ++t) {
     const auto& vertex = flow.mesh.triangle[t];
-    std::array<double, 3> x, y;
-    std::array<double, kUnknowns> u;
-    for (int i = 0; i < 3; ++i) {
-      x[i] = flow.mesh.position[vertex[i]].x;
-      y[i] = flow.mesh.position[vertex[i]].y;
-      for (int c = 0; c < 3; ++c) u[3 * i + c] = unknown[3 * vertex[i] + c];
-    }
-    const auto part = element_residual(flow.fluid, input_of(flow, scheme, t), x, y, u);
+    const auto part = residual_of(flow, scheme, unknown, t);
     for (int row = 0; row < kUnknowns; ++row) residual[3 * vertex[row / 3] + row % 3] += part[row];
   }
   close(flow, unknown, residual);
+}
+
+std::array<double, 2> force_on(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles,
+                               std::span<const std::uint8_t> of_body) {
+  std::array<double, 2> force{};
+  for (const std::int32_t t : triangles) {
+    const auto part = residual_of(flow, scheme, flow.unknown, static_cast<std::size_t>(t));
+    for (int i = 0; i < 3; ++i)
+      if (of_body[flow.mesh.triangle[t][i]])
+        for (int c = 0; c < 2; ++c) force[c] -= part[3 * i + c];
+  }
+  return force;
 }
 
 }  // namespace seapile::fluid

@@ -5,6 +5,7 @@
 // bits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -46,5 +47,11 @@ void residual_of(const Flow& flow, const PackedFlow& packed, std::span<const dou
 /// The same, triangle by triangle from the flow itself: the slow twin.
 void residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const double> unknown,
                  std::span<double> residual);
+
+/// Force of the fluid on a body whose vertices hold their velocities: what their momentum equations lack [N/m; per radian
+/// when axisymmetric]. Exact for the scheme: it is the traction for which the flow would be what it is. `triangles`: those
+/// that touch the body; `of_body`: 1 for its vertices, (vertices).
+std::array<double, 2> force_on(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles,
+                               std::span<const std::uint8_t> of_body);
 
 }  // namespace seapile::fluid

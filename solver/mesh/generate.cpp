@@ -17,10 +17,11 @@ decltype(&seapile_generate) mesher_function() {
 
 }  // namespace
 
-TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size) {
+TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size,
+                      const Method& method) {
   TriangleMesh mesh;
   std::string error;
-  mesher_function()(polygon, size, mesh, error);
+  mesher_function()(polygon, size, method, mesh, error);
   if (!error.empty()) throw NoMesh("mesh: Gmsh could not mesh the domain: " + error);
   check(mesh);
   return mesh;

@@ -14,6 +14,13 @@ namespace seapile::mesh {
 struct Corner {
   base::Vec2 position;    ///< [m]
   std::int32_t side = 0;  ///< tag of the edges from here to the next corner
+  bool whole = false;     ///< the side is one edge, whatever its length
+};
+
+/// How Gmsh goes about it.
+struct Method {
+  int algorithm = 6;  ///< 6: Frontal-Delaunay, repeatable, and better shaped than 5: Delaunay
+  int smoothing = 5;  ///< passes
 };
 
 /// Gmsh could not mesh a domain.
@@ -24,6 +31,7 @@ struct NoMesh : std::runtime_error {
 /// Triangulates the polygon (counterclockwise, without holes) with edges of about size(x) [m]. The same polygon and
 /// sizes give the same mesh, bit for bit, on one installation of Gmsh. Not reentrant: Gmsh is one per process. Throws
 /// NoMesh with Gmsh's words when it cannot.
-TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size);
+TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size,
+                      const Method& method = {});
 
 }  // namespace seapile::mesh

@@ -1,8 +1,8 @@
 // Whether triangles turn over on their way from one place to another.
 //
-//   2 A(s) = (b - a) x (c - a), a(s) = a_0 + s (a_1 - a_0), ...   a quadratic in s; valid while it is positive on [0,
-//   1]
+//   2 A(s) = (b - a) x (c - a),   a(s) = a_0 + s (a_1 - a_0), b and c likewise
 //
+// is quadratic in s, linear when all vertices move upright; the triangle is valid when it is positive on all of [0, 1].
 // A triangle whose end is valid may have been turned over on its way and back.
 #pragma once
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Gmsh between two braces.
 struct Session {
-  Session() {
+  explicit Session(const Method& method) {
     gmsh::initialize(0, nullptr, false);
     const std::pair<const char*, double> options[] = {
         {"General.Terminal", 0},
@@ -23,8 +23,8 @@ struct Session {
         {"Mesh.MeshSizeExtendFromBoundary", 0},
         {"Mesh.MeshSizeFromPoints", 0},
         {"Mesh.MeshSizeFromCurvature", 0},
-        {"Mesh.Algorithm", 6},  // Frontal-Delaunay: repeatable, and better shaped than Delaunay
-        {"Mesh.Smoothing", 5},
+        {"Mesh.Algorithm", method.algorithm},
+        {"Mesh.Smoothing", method.smoothing},
         {"Mesh.RandomSeed", 1}};
     for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
     gmsh::model::add("domain");
@@ -34,8 +34,9 @@ struct Session {
   Session& operator=(const Session&) = delete;
 };
 
-TriangleMesh generated(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size) {
-  const Session session;
+TriangleMesh generated(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size,
+                       const Method& method) {
+  const Session session(method);
   const int corners = static_cast<int>(polygon.size());
   std::vector<int> lines;
   for (int i = 0; i < corners; ++i)
@@ -43,6 +44,8 @@ TriangleMesh generated(std::span<const Corner> polygon, const std::function<doub
   for (int i = 0; i < corners; ++i) lines.push_back(gmsh::model::geo::addLine(i + 1, (i + 1) % corners + 1, i + 1));
   gmsh::model::geo::addPlaneSurface({gmsh::model::geo::addCurveLoop(lines)}, 1);
   gmsh::model::geo::synchronize();
+  for (int i = 0; i < corners; ++i)
+    if (polygon[i].whole) gmsh::model::mesh::setTransfiniteCurve(i + 1, 2);
   gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double) { return size({x, y}); });
   gmsh::model::mesh::generate(2);
   std::string error;
@@ -94,9 +97,10 @@ TriangleMesh generated(std::span<const Corner> polygon, const std::function<doub
 
 extern "C" void seapile_generate(std::span<const seapile::mesh::Corner> polygon,
                                  const std::function<double(seapile::base::Vec2)>& size,
-                                 seapile::mesh::TriangleMesh& mesh, std::string& error) {
+                                 const seapile::mesh::Method& method, seapile::mesh::TriangleMesh& mesh,
+                                 std::string& error) {
   try {
-    mesh = seapile::mesh::generated(polygon, size);
+    mesh = seapile::mesh::generated(polygon, size, method);
   } catch (const std::exception& what) {
     error = what.what();
   }

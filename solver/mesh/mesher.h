@@ -13,4 +13,5 @@
 /// generate() without its check; a sentence in `error` when it cannot, and nothing is thrown.
 extern "C" void seapile_generate(std::span<const seapile::mesh::Corner> polygon,
                                  const std::function<double(seapile::base::Vec2)>& size,
-                                 seapile::mesh::TriangleMesh& mesh, std::string& error);
+                                 const seapile::mesh::Method& method, seapile::mesh::TriangleMesh& mesh,
+                                 std::string& error);

@@ -4,7 +4,6 @@
 //   thesis 4.3
 #pragma once
 
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -12,7 +11,7 @@
 
 namespace seapile::mesh {
 
-/// Of each triangle. A triangle that turns clockwise has q < 0.
+/// Of each triangle. One that turns clockwise has both below 0, one that is flat or has a vertex at no finite place 0.
 struct Quality {
   std::vector<double> shape;           ///< q [-], (triangles)
   std::vector<double> smallest_angle;  ///< [rad], (triangles)

@@ -87,6 +87,14 @@ TEST(Generate, AnUprightOrLevelSideIsExactlyWhereItsCornersAre) {
   }
 }
 
+TEST(Generate, AWholeSideIsOneEdge) {
+  std::vector<Corner> corners = kBasin;
+  corners[4].whole = corners[5].whole = corners[7].whole = true;
+  const TriangleMesh mesh = generate(corners, [](base::Vec2) { return 0.05; });
+  for (const std::int32_t whole : {4, 5, 7}) EXPECT_EQ(chain(mesh, whole).size(), 2u);
+  EXPECT_GT(chain(mesh, 6).size(), 4u);
+}
+
 TEST(Generate, SizesFollowTheFunctionOfPlace) {
   const TriangleMesh mesh = generate(kBasin, graded);
   double at_tip = 0, shortest = 1, longest = 0, ratio = 0;

@@ -1,0 +1,23 @@
+// A new mesh for a basin, and the flow on it.
+//
+// The surface keeps its vertices, so that its heights, and the water's volume, are the same to the last bit. Velocities
+// are brought over by projection or interpolation (mesh/transfer.h), pressures by interpolation. What is brought over
+// is not quite free of divergence on the new mesh: the next step begins anew with an Euler step, and its pressure bears
+// what that puts right.
+#pragma once
+
+#include "solver/basin/basin.h"
+#include "solver/mesh/transfer.h"
+
+namespace seapile::basin {
+
+/// Whether the scene asks for a new mesh now.
+bool needs_new_mesh(const Basin& basin);
+
+/// Throws mesh::NoMesh; the basin is then as it was.
+void remesh(Basin& basin);
+
+/// The unstructured mesh of a basin whose top has the heights of `top` and whose tip stands at `tip`.
+mesh::TriangleMesh mesh_for(const BasinSpec& spec, const std::vector<base::Vec2>& right_half_of_top, double tip);
+
+}  // namespace seapile::basin

@@ -1,0 +1,24 @@
+// One step of a basin in time.
+//
+//   1 pile      moves to its new place
+//   2 surface   moves with the water                                        section_flux.h, or fluid/free_surface.h
+//   3 mesh      follows both, with one mesh velocity                        mesh/motion.h
+//   4 flow      is solved on the moved domain                               fluid/advance.h
+//   5 mesh      is made anew where its triangles have become bad, and the flow brought over     remesh.h
+//
+// Thesis, Algorithm 1, in the order that keeps mass and mesh velocity consistent (physics 8.20): the thesis solves
+// first and moves afterwards. 2 to 4 depend on each other: they are iterated together (`iterated`), or 2 and 3 go first
+// with the velocities before, extrapolated. Both conserve volume with the conservative update.
+#pragma once
+
+#include <string>
+
+#include "solver/base/profile.h"
+#include "solver/basin/basin.h"
+
+namespace seapile::basin {
+
+/// Empty when the step is done; otherwise one sentence on why it cannot be, and the basin is as it was before.
+std::string step(Basin& basin, base::Profile& profile);
+
+}  // namespace seapile::basin
