@@ -21,6 +21,7 @@
 #include "runner/execute/provenance.h"
 #include "runner/store/run_folder.h"
 #include "runner/study/study.h"
+#include "solver/simulation/basin.h"
 #include "solver/simulation/jet.h"
 #include "solver/simulation/run.h"
 
@@ -138,43 +139,45 @@ class Job {
 
   int drive(store::RunWriter& writer) {
     const simulation::Bed bed = store::read_bed(store::case_folder(request_.root, request_.bed_id) / request_.bed_run);
-    Metronome checkpoints(request_.checkpoint_every);
-    simulation::RunHooks hooks;
-    hooks.record = [&](const simulation::Record& record) { writer.add(record); };
-    hooks.frame = [&](const simulation::Frame& frame) { writer.add(frame); };
-    hooks.progress = [this](const simulation::Progress& progress) { advance(progress); };
-    hooks.checkpoint_due = [&] { return checkpoints.due(); };
-    hooks.checkpoint = [&](const std::vector<simulation::Array>& state) {
-      writer.checkpoint(state);
-      note_cost();
-    };
-    hooks.stop = [] { return stop_requested != 0; };
+    const auto hooks = hooked<simulation::RunHooks>(writer);
     const store::Resumable& resumable = writer.resumable();
     if (!resumable.state.empty()) log("continues after {} records", resumable.records.size());
-    const simulation::RunResult result =
-        simulation::run(request_.scene, request_.record, bed, execution(), resumable.state, resumable.records, hooks);
-    if (result.outcome == Outcome::stopped) {
-      log("stopped on request at t = {} s", result.time);
-      return kStoppedResumable;
-    }
-    return finish(writer, result, nullptr);
+    return end(writer, simulation::run(request_.scene, request_.record, bed, execution(), resumable.state,
+                                       resumable.records, hooks));
   }
 
   int flow(store::RunWriter& writer) {
-    Metronome checkpoints(request_.checkpoint_every);
-    simulation::JetHooks hooks;
-    hooks.frame = [&](const simulation::FlowFrame& frame) { writer.add(frame); };
+    const store::Resumable& resumable = writer.resumable();
+    const scene::SceneSpec& scene = request_.scene;
+    if (scene.jet) {
+      const auto hooks = hooked<simulation::JetHooks>(writer);
+      return end(writer, simulation::run_jet(*scene.jet, execution(), resumable.state, hooks));
+    }
+    const auto hooks = hooked<simulation::BasinHooks>(writer);
+    if (!resumable.state.empty()) log("continues after {} records", resumable.flow_records.size());
+    return end(writer, simulation::run_basin(*scene.basin, request_.record, execution(), resumable.state,
+                                             resumable.flow_records, hooks));
+  }
+
+  /// What a run hands out goes to the writer, and what it asks is answered, whatever kind it is of.
+  template <class Hooks>
+  Hooks hooked(store::RunWriter& writer) {
+    Hooks hooks;
+    if constexpr (requires { hooks.record; }) hooks.record = [&writer](const auto& record) { writer.add(record); };
+    hooks.frame = [&writer](const auto& frame) { writer.add(frame); };
     hooks.progress = [this](const simulation::Progress& progress) { advance(progress); };
-    hooks.checkpoint_due = [&] { return checkpoints.due(); };
-    hooks.checkpoint = [&](const std::vector<simulation::Array>& state) {
+    hooks.checkpoint_due = [this] { return checkpoints_.due(); };
+    hooks.checkpoint = [this, &writer](const std::vector<simulation::Array>& state) {
       writer.checkpoint(state);
       note_cost();
     };
     hooks.stop = [] { return stop_requested != 0; };
-    const simulation::RunResult result =
-        simulation::run_jet(*request_.scene.jet, execution(), writer.resumable().state, hooks);
+    return hooks;
+  }
+
+  int end(store::RunWriter& writer, const simulation::RunResult& result) {
     if (result.outcome == Outcome::stopped) {
-      log("stopped on request at t = {} H/U", result.time);
+      log("{}", result.reason);
       return kStoppedResumable;
     }
     return finish(writer, result, nullptr);
@@ -220,6 +223,7 @@ class Job {
   Attempt attempt_;
   Cost earlier_;
   Metronome second_{1};
+  Metronome checkpoints_{request_.checkpoint_every};
 };
 
 int run_claimed(const Request& request, const std::function<void(const Message&)>& tell) {

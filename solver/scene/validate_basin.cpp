@@ -108,6 +108,9 @@ void check_mesh(const BasinSpec& basin, Problems& problems) {
       problems.push_back(
           {"/basin/mesh/pattern/structured/columns", "is odd: the mesh is its own mirror image", "an even number", ""});
     }
+    if (structured->rows == 1 && structured->bottom_row != 1) {
+      problems.push_back({"/basin/mesh/pattern/structured/bottom_row", "is the height of the only row", "1", ""});
+    }
     if (basin.pile) {
       problems.push_back(
           {"/basin/mesh/pattern", "is structured, which leaves no room for a pile", "unstructured, or pile null", ""});
