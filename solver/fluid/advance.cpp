@@ -12,12 +12,15 @@ constexpr int kMostDifferences = 10;
 
 /// What rounding leaves of the pressure's terms, by their size; ten times what a fluid at rest shows.
 constexpr double kRounding = 1e-14;
+/// Ten times what rounding leaves of a vertex's height, by that height.
+constexpr double kHeightRounding = 1e-15;
 
 /// How residuals are measured.
 struct Measure {
   double h;            ///< [m]
   double stiffness;    ///< force on a vertex by its velocity [kg/m/s]
   double mass_weight;  ///< of a mass row, so that it compares with a momentum row [kg/m2/s]
+  double film = 0;     ///< force of the films that rounding of their heights makes [kg m/s2]
 
   Measure(const Flow& flow, double rate) {
     double area = 0;
@@ -26,13 +29,21 @@ struct Measure {
     h = std::sqrt(area / static_cast<double>(flow.mesh.vertices()));
     stiffness = flow.fluid.density * rate * h * h + flow.fluid.viscosity;
     mass_weight = stiffness / h;
+    double square = 0;
+    for (const FilmEdge& e : flow.film) {
+      const base::Vec2 a = flow.mesh.position[e.from], b = flow.mesh.position[e.to];
+      const double dx = std::abs(b.x - a.x),
+                   force = kHeightRounding * (e.tension / dx + e.weight * dx) * std::max(std::abs(a.y), std::abs(b.y));
+      square += force * force;
+    }
+    film = std::sqrt(square);
   }
   /// A weighted residual by the size of the velocity's terms; 0 when it is no more than rounding.
   double share(double norm, std::span<const double> unknown) const {
     double velocity = 0, pressure = 0;
     for (std::size_t i = 0; i < unknown.size(); ++i)
       (i % 3 == kPressure ? pressure : velocity) += unknown[i] * unknown[i];
-    return norm <= kRounding * h * std::sqrt(pressure) ? 0 : norm / (stiffness * std::sqrt(velocity));
+    return norm <= kRounding * h * std::sqrt(pressure) + film ? 0 : norm / (stiffness * std::sqrt(velocity));
   }
   /// The residual with its mass rows weighted.
   Eigen::VectorXd weighted(std::span<const double> residual) const {
@@ -180,8 +191,7 @@ void set_rates(Flow& flow, const Past& past, TimeOrder order) {
   }
 }
 
-FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile,
-                   const FollowFlow& follow) {
+FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profile& profile, const FollowFlow& follow) {
   const std::size_t in_packing = profile.index("fluid packing"), in_factor = profile.index("fluid factor");
   const std::vector<double> given = flow.unknown;
   const TimeScheme scheme = scheme_of(past, solver);

@@ -13,9 +13,10 @@
 //   - when the last step took more than kManyIterations;
 //   - when a step does not converge within kMostIterations: it begins again with a new one.
 //
-// Where the domain depends on the flow of the same step (a free surface), it is found by the same iteration: the domain is
-// made anew from the unknowns before each residual. Of that A knows what a level film's weight and tension do (without it
-// (omega dt)^2 of the fastest surface wave would have to stay below 1); Anderson's acceleration makes up for the rest.
+// Where the domain depends on the flow of the same step (a free surface), it is found by the same iteration: the domain
+// is made anew from the unknowns before each residual. Of that A knows what a level film's weight and tension do
+// (without it (omega dt)^2 of the fastest surface wave would have to stay below 1); Anderson's acceleration makes up
+// for the rest.
 #pragma once
 
 #include <cstdint>
@@ -70,7 +71,8 @@ struct FlowReport {
   int iterations = 0;
   bool refactored = false;
   /// |R|, mass rows weighted with (rho rate + mu/h^2) h, by (rho rate h^2 + mu) |u|; h^2 the mean area of a vertex. 0
-  /// when |R| is no more than the rounding of the pressure's terms, |p| h: a fluid at rest has no other scale [-].
+  /// when |R| is no more than the rounding of the pressure's terms, |p| h, and of the films' heights: a fluid at rest
+  /// has no other scale [-].
   double residual = 0;
   std::string reason;  ///< one sentence when not converged
   /// What the equations of continuity are short of where the iteration ended, (vertices) [m2/s].
@@ -87,8 +89,8 @@ void set_rates(Flow& flow, const Past& past, TimeOrder order);
 /// How the scheme makes dv/dt of the new level from those of the past.
 TimeScheme scheme_of(const Past& past, const FlowSolver& solver);
 
-/// Makes the domain that belongs to flow.unknown: places, velocities of the mesh, values that are held, outside pressures.
-/// False when there is none; the step then fails.
+/// Makes the domain that belongs to flow.unknown: places, velocities of the mesh, values that are held, outside
+/// pressures. False when there is none; the step then fails.
 using FollowFlow = std::function<bool(Flow&)>;
 
 /// Solves for the new level; `flow.unknown` holds the values that are held. On failure the unknowns are those given.
