@@ -54,7 +54,7 @@ CREATE TABLE run (
   time           REAL,                                      -- reached [s]
   depth          REAL,                                      -- reached [m]; NULL: no pile
   state_hash     TEXT NOT NULL,                             -- XXH3 of the final state, 16 hex digits
-  records        INTEGER NOT NULL,                          -- rows of the series
+  records        INTEGER NOT NULL,                          -- rows of its series, of grains and of water
   frames         INTEGER NOT NULL,                          -- frames of the grains kept
   version        TEXT NOT NULL,                             -- of Seapile
   commit_sha     TEXT NOT NULL,                             -- of its source

@@ -17,8 +17,8 @@ struct Attempt {
   double cpu_seconds = 0;   ///< up to the last checkpoint
   double wall_seconds = 0;  ///< up to the last checkpoint
   std::vector<simulation::NumericsVersion> numerics;
-  std::optional<scene::RecordSpec> record;  ///< absent for a bed
-  std::string bed_run;                      ///< "" for a bed
+  std::optional<scene::RecordSpec> record;  ///< absent where runs of the scene are not recorded
+  std::string bed_run;                      ///< "" without a bed
 };
 
 /// Throws store::StoreError.

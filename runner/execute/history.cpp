@@ -35,7 +35,7 @@ PastRun read_past(const fs::path& run_folder, const std::string& run) {
     past.reason = manifest.result.reason;
     past.numerics = manifest.header.numerics;
     past.bed_run = manifest.header.bed_run;
-    if (manifest.header.kind == "drive") past.record = study::record_from_json(manifest.header.record_json);
+    if (!manifest.header.record_json.empty()) past.record = study::record_from_json(manifest.header.record_json);
     past.damage = visible_damage(run_folder, manifest);
   } catch (const store::StoreError& error) {
     past.damage = fmt::format("run {} is damaged: {}", run, error.what());

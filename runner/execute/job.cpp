@@ -21,6 +21,7 @@
 #include "runner/execute/provenance.h"
 #include "runner/store/run_folder.h"
 #include "runner/study/study.h"
+#include "solver/simulation/basin.h"
 #include "solver/simulation/jet.h"
 #include "solver/simulation/run.h"
 
@@ -77,7 +78,7 @@ store::RunHeader header_of(const Request& request) {
   header.scene_json = study::to_json(request.scene);
   header.bed_id = request.bed_id;
   header.bed_run = request.bed_run;
-  if (request.kind == "drive") header.record_json = study::to_json(request.record);
+  if (is_recorded(request.scene)) header.record_json = study::to_json(request.record, request.scene);
   header.parts = simulation::parts(request.scene);
   header.numerics = simulation::numerics_versions(request.scene);
   return header;
@@ -97,7 +98,7 @@ class Job {
     ++attempt_.count;
     attempt_.numerics = header_.numerics;
     attempt_.bed_run = request_.bed_run;
-    if (request_.kind == "drive") attempt_.record = request_.record;
+    attempt_.record = record_of_runs(request_.record, request_.scene);
     earlier_ = {attempt_.cpu_seconds, attempt_.wall_seconds};
     write_attempt(folder_, attempt_);
 
@@ -138,43 +139,45 @@ class Job {
 
   int drive(store::RunWriter& writer) {
     const simulation::Bed bed = store::read_bed(store::case_folder(request_.root, request_.bed_id) / request_.bed_run);
-    Metronome checkpoints(request_.checkpoint_every);
-    simulation::RunHooks hooks;
-    hooks.record = [&](const simulation::Record& record) { writer.add(record); };
-    hooks.frame = [&](const simulation::Frame& frame) { writer.add(frame); };
-    hooks.progress = [this](const simulation::Progress& progress) { advance(progress); };
-    hooks.checkpoint_due = [&] { return checkpoints.due(); };
-    hooks.checkpoint = [&](const std::vector<simulation::Array>& state) {
-      writer.checkpoint(state);
-      note_cost();
-    };
-    hooks.stop = [] { return stop_requested != 0; };
+    const auto hooks = hooked<simulation::RunHooks>(writer);
     const store::Resumable& resumable = writer.resumable();
     if (!resumable.state.empty()) log("continues after {} records", resumable.records.size());
-    const simulation::RunResult result =
-        simulation::run(request_.scene, request_.record, bed, execution(), resumable.state, resumable.records, hooks);
-    if (result.outcome == Outcome::stopped) {
-      log("stopped on request at t = {} s", result.time);
-      return kStoppedResumable;
-    }
-    return finish(writer, result, nullptr);
+    return end(writer, simulation::run(request_.scene, request_.record, bed, execution(), resumable.state,
+                                       resumable.records, hooks));
   }
 
   int flow(store::RunWriter& writer) {
-    Metronome checkpoints(request_.checkpoint_every);
-    simulation::JetHooks hooks;
-    hooks.frame = [&](const simulation::FlowFrame& frame) { writer.add(frame); };
+    const store::Resumable& resumable = writer.resumable();
+    const scene::SceneSpec& scene = request_.scene;
+    if (scene.jet) {
+      const auto hooks = hooked<simulation::JetHooks>(writer);
+      return end(writer, simulation::run_jet(*scene.jet, execution(), resumable.state, hooks));
+    }
+    const auto hooks = hooked<simulation::BasinHooks>(writer);
+    if (!resumable.state.empty()) log("continues after {} records", resumable.flow_records.size());
+    return end(writer, simulation::run_basin(*scene.basin, request_.record, execution(), resumable.state,
+                                             resumable.flow_records, hooks));
+  }
+
+  /// What a run hands out goes to the writer, and what it asks is answered, whatever kind it is of.
+  template <class Hooks>
+  Hooks hooked(store::RunWriter& writer) {
+    Hooks hooks;
+    if constexpr (requires { hooks.record; }) hooks.record = [&writer](const auto& record) { writer.add(record); };
+    hooks.frame = [&writer](const auto& frame) { writer.add(frame); };
     hooks.progress = [this](const simulation::Progress& progress) { advance(progress); };
-    hooks.checkpoint_due = [&] { return checkpoints.due(); };
-    hooks.checkpoint = [&](const std::vector<simulation::Array>& state) {
+    hooks.checkpoint_due = [this] { return checkpoints_.due(); };
+    hooks.checkpoint = [this, &writer](const std::vector<simulation::Array>& state) {
       writer.checkpoint(state);
       note_cost();
     };
     hooks.stop = [] { return stop_requested != 0; };
-    const simulation::RunResult result =
-        simulation::run_jet(*request_.scene.jet, execution(), writer.resumable().state, hooks);
+    return hooks;
+  }
+
+  int end(store::RunWriter& writer, const simulation::RunResult& result) {
     if (result.outcome == Outcome::stopped) {
-      log("stopped on request at t = {} H/U", result.time);
+      log("{}", result.reason);
       return kStoppedResumable;
     }
     return finish(writer, result, nullptr);
@@ -220,6 +223,7 @@ class Job {
   Attempt attempt_;
   Cost earlier_;
   Metronome second_{1};
+  Metronome checkpoints_{request_.checkpoint_every};
 };
 
 int run_claimed(const Request& request, const std::function<void(const Message&)>& tell) {
@@ -230,8 +234,8 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
     return kClaimHeld;
   }
   // Decided under the claim: another runner may have finished the case since the plan was made.
-  Asked asked{simulation::numerics_versions(request.scene), std::nullopt, request.bed_run};
-  if (request.kind == "drive") asked.record = request.record;
+  const Asked asked{simulation::numerics_versions(request.scene), record_of_runs(request.record, request.scene),
+                    request.bed_run};
   const Decision decision = decide(asked, read_history(request.root, request.case_id));
   if (decision.action == Action::fresh) return kDone;
   const std::string run = decision.run.empty() ? store::next_run(case_folder, false) : decision.run;

@@ -78,12 +78,20 @@ std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want
   if (have.travel != want.travel) return differs("travel between records", have.travel, want.travel, "m");
   if (have.window != want.window) return differs("frame window", have.window, want.window, "s");
   if (have.spacing != want.spacing) return differs("grid spacing", have.spacing, want.spacing, "m");
-  for (const double frame : want.frames) {
-    if (std::ranges::find(have.frames, frame) == have.frames.end()) {
-      return fmt::format("frame at {} m not recorded", frame);
+  if (have.interval != want.interval) return differs("interval between records", have.interval, want.interval, "s");
+  const auto first_missing = [](const std::vector<double>& kept, const std::vector<double>& wanted, const char* unit) {
+    for (const double frame : wanted) {
+      if (std::ranges::find(kept, frame) == kept.end()) return fmt::format("frame at {} {} not recorded", frame, unit);
     }
-  }
-  return "";
+    return std::string();
+  };
+  const std::string missing = first_missing(have.frames, want.frames, "m");
+  return missing.empty() ? first_missing(have.times, want.times, "s") : missing;
+}
+
+std::optional<scene::RecordSpec> record_of_runs(const scene::RecordSpec& record, const scene::SceneSpec& scene) {
+  if (!is_recorded(scene)) return std::nullopt;
+  return study::record_of(record, scene);
 }
 
 Decision decide(const Asked& asked, const History& history) {
@@ -125,7 +133,7 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
   // Every bed once, in the order in which the study first names it.
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     const study::Case& c = study.cases[i];
-    if (c.scene.jet) continue;
+    if (is_water(c.scene)) continue;
     const bool is_bed = c.id == c.bed_id;
     auto [bed, inserted] = beds.try_emplace(c.bed_id, BedState{plan.tasks.size(), {}, is_bed});
     bed->second.needed |= is_bed;
@@ -141,14 +149,14 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     if (c.id == c.bed_id) continue;
     histories[i] = disk(c.id);
     const std::string labels = label_line(c.labels), name = labels.empty() ? "case " + short_id(c.id) : labels;
-    if (c.scene.jet) {
-      plan.tasks.push_back(
-          {Kind::flow, c.id, i, std::nullopt, name, 1, decide({numerics(c.scene), std::nullopt, ""}, histories[i])});
+    Asked asked{numerics(c.scene), record_of_runs(study.record, c.scene), ""};
+    if (is_water(c.scene)) {
+      plan.tasks.push_back({Kind::flow, c.id, i, std::nullopt, name, 1, decide(asked, histories[i])});
       continue;
     }
     BedState& bed = beds.at(c.bed_id);
     const Decision& of_bed = plan.tasks[bed.task].decision;
-    Asked asked{numerics(c.scene), study.record, of_bed.run};
+    asked.bed_run = of_bed.run;
     if (of_bed.action != Action::fresh) asked.bed_run = histories[i].past ? histories[i].past->bed_run : "";
     const Decision decision = decide(asked, histories[i]);
     bed.needed |= decision.action != Action::fresh;
@@ -163,7 +171,7 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     if (!bed.needed || of_bed.action == Action::fresh) continue;
     const std::string run = run_to_come(bed.history, of_bed);
     const bool was_fresh = task.decision.action == Action::fresh;
-    task.decision = decide({numerics(c.scene), study.record, run}, histories[task.study_case]);
+    task.decision = decide({numerics(c.scene), record_of_runs(study.record, c.scene), run}, histories[task.study_case]);
     if (was_fresh && task.decision.action != Action::fresh) task.decision.reason = "bed newly computed";
   }
   // Lost or outdated beds of fresh drives are nobody's concern.

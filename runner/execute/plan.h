@@ -20,8 +20,8 @@ struct PastRun {
   simulation::Outcome outcome = simulation::Outcome::completed;
   std::string reason;  ///< why it did not complete
   std::vector<simulation::NumericsVersion> numerics;
-  std::optional<scene::RecordSpec> record;  ///< absent for a bed
-  std::string bed_run;                      ///< "" for a bed
+  std::optional<scene::RecordSpec> record;  ///< absent where runs of the scene are not recorded
+  std::string bed_run;                      ///< "" without a bed
   std::string damage;                       ///< one sentence when the run cannot be used; the rest then means nothing
 };
 
@@ -46,9 +46,12 @@ using Disk = std::function<History(const std::string& case_id)>;
 /// What a run must have been made with to be used again.
 struct Asked {
   std::vector<simulation::NumericsVersion> numerics;
-  std::optional<scene::RecordSpec> record;  ///< absent for a bed
-  std::string bed_run;                      ///< the bed's newest run; "" for a bed
+  std::optional<scene::RecordSpec> record;  ///< absent where runs of the scene are not recorded
+  std::string bed_run;                      ///< the bed's newest run; "" without a bed
 };
+
+/// What of a record the runs of a scene heed; absent where they are not recorded.
+std::optional<scene::RecordSpec> record_of_runs(const scene::RecordSpec& record, const scene::SceneSpec& scene);
 
 enum class Action { fresh, resume, run };
 
@@ -66,7 +69,7 @@ std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want
 
 enum class Kind { bed, drive, flow };
 
-/// One case to be considered: a bed, a drive that is built on one, or a flow without grains.
+/// One case to be considered: a bed, a drive that is built on one, or a flow of water alone.
 struct Task {
   Kind kind = Kind::drive;
   std::string id;                  ///< case id

@@ -74,10 +74,11 @@ class Pool {
 
   void replan(std::size_t i) {
     Task& task = plan_.tasks[i];
-    Asked asked{numerics_(study_.cases[task.study_case].scene), std::nullopt, ""};
+    const study::Case& of_study = study_.cases[task.study_case];
+    Asked asked{numerics_(of_study.scene), std::nullopt, ""};
+    if (task.kind != Kind::bed) asked.record = record_of_runs(study_.record, of_study.scene);
     if (task.kind == Kind::drive) {
-      const History bed = store_.disk(study_.cases[task.study_case].bed_id);
-      asked.record = study_.record;
+      const History bed = store_.disk(of_study.bed_id);
       asked.bed_run = bed.past ? bed.past->run : "";
     }
     task.decision = decide(asked, store_.disk(task.id));

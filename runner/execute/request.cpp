@@ -57,8 +57,8 @@ Request request_from_json(const std::string& text, const std::string& file) {
   }
   if (request.kind != "bed" && request.kind != "drive" && request.kind != "flow")
     refuse(file, "/kind", "must be \"bed\", \"drive\" or \"flow\"");
-  if ((request.kind == "flow") != request.scene.jet.has_value())
-    refuse(file, "/scene/jet", "a flow needs a jet, and only a flow has one");
+  if ((request.kind == "flow") != is_water(request.scene))
+    refuse(file, "/scene", "a flow needs a jet or a basin, and only a flow has one");
   if (request.kind == "drive" && !request.scene.pile) refuse(file, "/scene/pile", "a drive needs a pile");
   // Both become parts of a path.
   if (!only(request.bed_id, "0123456789abcdef")) refuse(file, "/bed_id", "is not a case id");

@@ -13,7 +13,7 @@ struct Request {
   std::string case_id;       ///< of the case to be run
   std::string canonical;     ///< its canonical text
   scene::SceneSpec scene;    ///< for a bed: the bed alone
-  scene::RecordSpec record;  ///< what to record of a drive
+  scene::RecordSpec record;  ///< what to record of a drive or a basin
   std::string bed_id;        ///< of a drive's bed; "" otherwise
   std::string bed_run;       ///< the bed's run to start from; "" otherwise
   int threads = 1;

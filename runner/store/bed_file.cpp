@@ -85,7 +85,7 @@ void write_bed(const std::filesystem::path& file, const Stamp& stamp, const Bed&
       writer.attribute(kMetrics + "/" + metric.name, "order", static_cast<std::int64_t>(i));
     }
     write_cost(writer, bed.profile);
-    write_series(writer, "/series", bed.records);
+    write_series(writer, bed.records);
   });
 }
 
@@ -105,7 +105,7 @@ Bed read_bed(const std::filesystem::path& file, const Stamp& stamp) {
                                         reader.attribute<std::string>(path, "meaning")};
   }
   bed.profile = read_cost(reader);
-  bed.records = read_series(reader, "/series");
+  bed.records = read_series<simulation::Record>(reader);
   reader.close();
   return bed;
 }

@@ -180,6 +180,7 @@ std::string manifest_text(const Manifest& manifest) {
   json.update(from_header(manifest.header));
   json["records"] = manifest.records;
   json["frames"] = manifest.frames;
+  json["flow_records"] = manifest.flow_records;
   json["flow_frames"] = manifest.flow_frames;
   json["result"] = from_result(manifest.result);
   json["provenance"] = from_provenance(manifest.provenance);
@@ -206,7 +207,8 @@ Manifest parse_manifest(const std::string& text, const std::filesystem::path& wh
     manifest.header = to_header(json);
     manifest.records = json.at("records");
     manifest.frames = json.at("frames");
-    manifest.flow_frames = json.value("flow_frames", std::size_t{0});  // The first manifests do not say.
+    manifest.flow_records = json.value("flow_records", std::size_t{0});  // The first manifests say nothing of water.
+    manifest.flow_frames = json.value("flow_frames", std::size_t{0});
     manifest.result = to_result(json.at("result"));
     manifest.provenance = to_provenance(json.at("provenance"));
     for (const Json& file : json.at("files")) {

@@ -65,6 +65,15 @@ Path intact(const Path& run_folder, const Manifest& manifest, const std::string&
   return run_folder / path;
 }
 
+template <class R>
+std::vector<R> series_of(const Path& run_folder, const Manifest& manifest) {
+  hdf5::FileReader reader(intact(run_folder, manifest, "series.h5"));
+  check_stamp(reader, "series", stamp_of(manifest));
+  std::vector<R> records = read_series<R>(reader);
+  reader.close();
+  return records;
+}
+
 /// The path without dots and without a slash at its end.
 Path plain(const Path& folder) {
   const Path normal = std::filesystem::absolute(folder).lexically_normal();
@@ -151,12 +160,14 @@ std::vector<std::string> verify(const Path& run_folder) {
 std::vector<simulation::Record> read_series(const Path& run_folder) {
   const Manifest manifest = read_manifest(run_folder);
   if (is_listed(manifest, "bed.h5")) return read_bed(run_folder).records;
-  if (manifest.records == 0 && !is_listed(manifest, "series.h5")) return {};
-  hdf5::FileReader reader(intact(run_folder, manifest, "series.h5"));
-  check_stamp(reader, "series", stamp_of(manifest));
-  std::vector<simulation::Record> records = read_series(reader, "/series");
-  reader.close();
-  return records;
+  if (manifest.records == 0 && manifest.header.kind == "flow") return {};
+  return series_of<simulation::Record>(run_folder, manifest);
+}
+
+std::vector<simulation::FlowRecord> read_flow_series(const Path& run_folder) {
+  const Manifest manifest = read_manifest(run_folder);
+  if (manifest.flow_records == 0) return {};
+  return series_of<simulation::FlowRecord>(run_folder, manifest);
 }
 
 simulation::Bed read_bed(const Path& run_folder) {

@@ -22,6 +22,7 @@
 #include "runner/store/store_error.h"
 #include "solver/simulation/array.h"
 #include "solver/simulation/flow_frame.h"
+#include "solver/simulation/flow_record.h"
 #include "solver/simulation/frame.h"
 #include "solver/simulation/record.h"
 #include "solver/simulation/run.h"
@@ -79,7 +80,7 @@ struct Manifest {
   int schema = 1;
   std::string run;   ///< "0001"
   RunHeader header;  ///< its JSON texts come back compact, whatever their spacing was
-  std::size_t records = 0, frames = 0, flow_frames = 0;
+  std::size_t records = 0, frames = 0, flow_records = 0, flow_frames = 0;
   simulation::RunResult result;
   Provenance provenance;
   std::vector<FileEntry> files;
@@ -91,7 +92,8 @@ struct Resumable {
   std::vector<simulation::Array> state;     ///< of the newest checkpoint that verifies
   std::vector<simulation::Record> records;  ///< of the sealed segments up to that checkpoint
   std::size_t frames = 0;                   ///< frames in those segments
-  std::size_t flow_frames = 0;              ///< frames of the water in those segments
+  std::vector<simulation::FlowRecord> flow_records;  ///< records of the water in those segments
+  std::size_t flow_frames = 0;                       ///< frames of the water in those segments
 };
 
 /// Writes one run. Records and frames are held in memory until a checkpoint seals them into a segment.
@@ -105,6 +107,7 @@ class RunWriter {
   const Resumable& resumable() const;
 
   void add(const simulation::Record& record);
+  void add(const simulation::FlowRecord& record);
   /// Throw std::logic_error when a frame is not what its header promises.
   void add(const simulation::Frame& frame);
   void add(const simulation::FlowFrame& frame);
@@ -114,7 +117,7 @@ class RunWriter {
 
   /// Merges, seals and verifies every file, writes the manifest last, then removes segments and checkpoints (a diverged
   /// run keeps them). `bed`: for a bed's run, its grains, porosity profile and records (bed.h5 instead of series.h5;
-  /// records that were add()ed must be the same). A flow without records has no series.h5. A stopped run is not
+  /// records that were add()ed must be the same). A flow without records of any kind has no series.h5. A stopped run is not
   /// finished: std::logic_error.
   void finish(const simulation::RunResult& result, Provenance provenance, const simulation::Bed* bed);
 
@@ -145,8 +148,11 @@ std::vector<std::string> verify(const std::filesystem::path& run_folder);
 
 // The readers of a complete run compare each file with the manifest before the HDF5 library sees it.
 
-/// Reads the whole series of a complete run; empty for a flow without records. Throws StoreError.
+/// Reads the whole series of a complete run; empty where there is none. Throws StoreError.
 std::vector<simulation::Record> read_series(const std::filesystem::path& run_folder);
+
+/// The same of the records of the water.
+std::vector<simulation::FlowRecord> read_flow_series(const std::filesystem::path& run_folder);
 
 /// Reads a bed's run back, bit for bit what finish() was given. Throws StoreError.
 simulation::Bed read_bed(const std::filesystem::path& run_folder);

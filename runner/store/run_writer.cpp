@@ -23,6 +23,7 @@ namespace seapile::store {
 namespace {
 
 using Path = std::filesystem::path;
+using simulation::FlowRecord;
 using simulation::Record;
 
 // Everything that a run can consist of, once it is complete.
@@ -86,7 +87,8 @@ struct RunWriter::Impl {
 
   void open();
   void seal_segment();
-  std::vector<Record> all_records() const;
+  template <class R>
+  std::vector<R> all_records() const;
   FrameSource all_frames() const { return all_of_a_kind(&segment_frame_count, &segment_frame); }
   FlowFrameSource all_flow_frames() const { return all_of_a_kind(&segment_flow_frame_count, &segment_flow_frame); }
   /// `count_in` and `load` know the frames of one segment.
@@ -104,8 +106,9 @@ void RunWriter::Impl::open() {
   segments = std::move(recovered.segments);
   digests = std::move(recovered.checkpoint.segments);
   resumable.state = std::move(recovered.checkpoint.state);
-  resumable.records = all_records();
+  resumable.records = all_records<Record>();
   resumable.frames = all_frames().count;
+  resumable.flow_records = all_records<FlowRecord>();
   resumable.flow_frames = all_flow_frames().count;
 }
 
@@ -117,10 +120,11 @@ void RunWriter::Impl::seal_segment() {
   pending = {};
 }
 
-std::vector<Record> RunWriter::Impl::all_records() const {
-  std::vector<Record> all;
+template <class R>
+std::vector<R> RunWriter::Impl::all_records() const {
+  std::vector<R> all;
   for (const Path& segment : segments) {
-    const std::vector<Record> some = segment_records(segment, stamp);
+    const std::vector<R> some = segment_records<R>(segment, stamp);
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
@@ -151,6 +155,8 @@ const Resumable& RunWriter::resumable() const { return impl_->resumable; }
 
 void RunWriter::add(const Record& record) { impl_->pending.records.push_back(record); }
 
+void RunWriter::add(const FlowRecord& record) { impl_->pending.flow_records.push_back(record); }
+
 void RunWriter::add(const simulation::Frame& frame) {
   require_well_formed(frame);
   impl_->pending.frames.push_back(frame);
@@ -175,16 +181,18 @@ void RunWriter::finish(const simulation::RunResult& result, Provenance provenanc
   if (!run.pending.empty()) run.seal_segment();
 
   const Stamp stamp{run.stamp.case_id, run.stamp.run};
-  const std::vector<Record> records = run.all_records();
+  const auto records = run.all_records<Record>();
+  const auto flow_records = run.all_records<FlowRecord>();
   if (bed != nullptr) {
     if (!records.empty() && !std::ranges::equal(records, bed->records, same_bits)) {
       throw std::logic_error("the records of a bed's run are not those of the bed");
     }
     write_bed(run.folder / "bed.h5", stamp, *bed);
-  } else if (!records.empty() || run.header.kind != "flow") {
+  } else if (run.header.kind != "flow" || !records.empty() || !flow_records.empty()) {
     seal(run.folder / "series.h5", hdf5::Storage::packed, [&](hdf5::FileWriter& writer) {
       write_stamp(writer, "series", stamp);
-      write_series(writer, "/series", records);
+      if (run.header.kind != "flow" || !records.empty()) write_series(writer, records);
+      if (!flow_records.empty()) write_series(writer, flow_records);
     });
   }
   const FrameSource frames = run.all_frames();
@@ -199,6 +207,7 @@ void RunWriter::finish(const simulation::RunResult& result, Provenance provenanc
                     run.header,
                     bed != nullptr ? bed->records.size() : records.size(),
                     frames.count,
+                    flow_records.size(),
                     flow_frames.count,
                     result,
                     std::move(provenance),

@@ -66,19 +66,24 @@ std::vector<Array> read_list(const hdf5::FileReader& reader, const std::string& 
 void write_segment(const std::filesystem::path& file, const Stamp& stamp, const Segment& segment) {
   seal(file, hdf5::Storage::plain, [&](hdf5::FileWriter& writer) {
     write_stamp(writer, "segment", stamp);
-    write_series(writer, "/series", segment.records);
+    write_series(writer, segment.records);
     write_frames(writer, segment.frames);
+    if (!segment.flow_records.empty()) write_series(writer, segment.flow_records);
     if (!segment.flow_frames.empty()) write_frames(writer, segment.flow_frames);
   });
 }
 
-std::vector<simulation::Record> segment_records(const std::filesystem::path& file, const Stamp& stamp) {
+template <class R>
+std::vector<R> segment_records(const std::filesystem::path& file, const Stamp& stamp) {
   hdf5::FileReader reader(file);
   check_stamp(reader, "segment", stamp);
-  std::vector<simulation::Record> records = read_series(reader, "/series");
+  std::vector<R> records;
+  if (has_series<R>(reader)) records = read_series<R>(reader);
   reader.close();
   return records;
 }
+template std::vector<simulation::Record> segment_records(const std::filesystem::path&, const Stamp&);
+template std::vector<simulation::FlowRecord> segment_records(const std::filesystem::path&, const Stamp&);
 
 std::size_t segment_frame_count(const std::filesystem::path& file, const Stamp& stamp) {
   hdf5::FileReader reader(file);

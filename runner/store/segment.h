@@ -7,6 +7,7 @@
 
 #include "runner/store/stamp.h"
 #include "solver/simulation/flow_frame.h"
+#include "solver/simulation/flow_record.h"
 #include "solver/simulation/frame.h"
 #include "solver/simulation/record.h"
 
@@ -16,13 +17,16 @@ namespace seapile::store {
 struct Segment {
   std::vector<simulation::Record> records;
   std::vector<simulation::Frame> frames;
+  std::vector<simulation::FlowRecord> flow_records;
   std::vector<simulation::FlowFrame> flow_frames;
-  bool empty() const { return records.empty() && frames.empty() && flow_frames.empty(); }
+  bool empty() const { return records.empty() && frames.empty() && flow_records.empty() && flow_frames.empty(); }
 };
 
 void write_segment(const std::filesystem::path& file, const Stamp& stamp, const Segment& segment);
 
-std::vector<simulation::Record> segment_records(const std::filesystem::path& file, const Stamp& stamp);
+/// Of Record or FlowRecord.
+template <class R>
+std::vector<R> segment_records(const std::filesystem::path& file, const Stamp& stamp);
 std::size_t segment_frame_count(const std::filesystem::path& file, const Stamp& stamp);
 simulation::Frame segment_frame(const std::filesystem::path& file, const Stamp& stamp, std::size_t index);
 std::size_t segment_flow_frame_count(const std::filesystem::path& file, const Stamp& stamp);

@@ -99,6 +99,14 @@ Members members_of(const Spec& spec) {
   return members;
 }
 
+/// Water alone: the one part that such a scene consists of; empty where there are grains.
+template <Purpose kPurpose>
+Members water_members(const scene::SceneSpec& scene) {
+  if (scene.jet) return {{"jet", object_text(members_of<kPurpose>(*scene.jet))}};
+  if (scene.basin) return {{"basin", object_text(members_of<kPurpose>(*scene.basin))}};
+  return {};
+}
+
 /// Reads what to_json() wrote.
 Value read_own(const std::string& text, const std::string& name) {
   base::Problems problems;
@@ -144,7 +152,7 @@ std::string canonical_text(const scene::BedSpec& bed) {
 }
 
 std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed_id) {
-  if (scene.jet) return object_text({{"jet", object_text(members_of<Purpose::identity>(*scene.jet))}});
+  if (is_water(scene)) return object_text(water_members<Purpose::identity>(scene));
   // Without a pile nothing is done to the bed, and the case is the bed.
   if (!scene.pile) return canonical_text(scene.bed);
   Members members = members_of<Purpose::identity>(scene);
@@ -152,15 +160,18 @@ std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed
   return object_text(members);
 }
 
-std::string canonical_text(const scene::RecordSpec& record) { return object_text(members_of<Purpose::identity>(record)); }
+std::string canonical_text(const scene::RecordSpec& record) {
+  return object_text(members_of<Purpose::identity>(record));
+}
 
 std::string to_json(const scene::SceneSpec& scene) {
-  if (scene.jet) return object_text({{"jet", object_text(members_of<Purpose::handover>(*scene.jet))}});
+  if (is_water(scene)) return object_text(water_members<Purpose::handover>(scene));
   Members bed = members_of<Purpose::handover>(scene.bed);
   if (!scene.bed.file_content.empty()) bed["file_content"] = string_text(scene.bed.file_content);
   Members members = members_of<Purpose::handover>(scene);
   members["bed"] = object_text(bed);
   members.erase("jet");
+  members.erase("basin");
   return object_text(members);
 }
 
@@ -177,6 +188,16 @@ scene::SceneSpec scene_from_json(const std::string& text) {
 }
 
 std::string to_json(const scene::RecordSpec& record) { return object_text(members_of<Purpose::handover>(record)); }
+
+std::string to_json(const scene::RecordSpec& record, const scene::SceneSpec& scene) {
+  Members members = members_of<Purpose::handover>(record);
+  std::erase_if(members, [&](const auto& entry) { return !heeds(scene, entry.first); });
+  return object_text(members);
+}
+
+scene::RecordSpec record_of(const scene::RecordSpec& record, const scene::SceneSpec& scene) {
+  return record_from_json(to_json(record, scene));
+}
 
 scene::RecordSpec record_from_json(const std::string& text) {
   const Value value = read_own(text, "record");

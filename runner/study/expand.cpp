@@ -149,14 +149,23 @@ class Expander {
             {pointer(layer.value->place), "has no place where " + why_not, "a path of the cases that match", ""});
       }
     }
-    const Value* jet = draft.tree.find("jet");
-    const bool is_jet = jet && jet->kind != Value::Kind::null;
+    const std::string water = water_in(draft.tree);
     for (const auto& [path, value] : grammar_.fidelity) {
-      if ((path.front() == "jet") != is_jet) continue;
+      const bool of_water = path.front() == "jet" || path.front() == "basin";
+      if ((of_water ? path.front() : "") != water) continue;
       if (!is_written(draft.tree, path)) assign(draft.tree, scene_schema(), path, value);
     }
     read_spec(draft.tree, draft.scene, draft.problems);
     return draft;
+  }
+
+  /// As water_of(), of a scene that is not read yet.
+  static std::string water_in(const Value& tree) {
+    for (const char* part : {"jet", "basin"}) {
+      const Value* written = tree.find(part);
+      if (written && written->kind != Value::Kind::null) return part;
+    }
+    return "";
   }
 
   /// An axis that changes nothing would make equal cases under different names: false, and told.
@@ -169,7 +178,7 @@ class Expander {
                               "exclude such cases, or write it into the values of the other axis", ""});
     };
     const auto why_not_used = [&](const std::string& path) -> std::string {
-      if (draft.scene.jet) return "the scene is a jet";
+      if (is_water(draft.scene)) return fmt::format("the scene is a {}", water_of(draft.scene));
       if (path.starts_with("bed.preparation.contact") || (path.starts_with("contact") && draft.scene.pile))
         return "the contact solver has no such member";
       return draft.scene.pile ? "the grains come from bed.file" : "there is no pile";
@@ -235,27 +244,28 @@ class Expander {
       problem.pointer = written_at(draft.tree, inside);
       if (unread.empty() || (said && !unread.contains(problem.pointer))) collector_.add_once_at(problem);
     }
-    if (draft.scene.jet) ++jets_;
-    if (!draft.scene.pile) return;
-    ++recorded_;
+    ++kinds_[water_of(draft.scene)];
+    if (!is_recorded(draft.scene)) return;
+    ++(draft.scene.basin ? basins_ : drives_);
     for (const auto& problem : scene::validate(grammar_.record, draft.scene)) {
       auto& entry = record_problems_.try_emplace(problem.pointer, problem, 0).first->second;
       ++entry.second;
     }
   }
 
-  /// A frame is fine when one case reaches its depth. Of the default frames only those are asked for.
+  /// A frame is fine when one case reaches its depth or its time. Of the default frames only those are asked for.
   void check_record() {
     const bool default_frames = !is_written(grammar_.record_text, {"frames"});
     std::vector<double> reached;
     for (std::size_t i = 0; i < grammar_.record.frames.size(); ++i) {
       const auto found = record_problems_.find(fmt::format("/frames/{}", i));
-      const bool by_a_case = found == record_problems_.end() || found->second.second < recorded_;
+      const bool by_a_case = found == record_problems_.end() || found->second.second < drives_;
       if (by_a_case) reached.push_back(grammar_.record.frames[i]);
     }
     for (const auto& [inside, entry] : record_problems_) {
-      const bool of_a_frame = inside.compare(0, 8, "/frames/") == 0;
-      if (of_a_frame && (default_frames || entry.second < recorded_)) continue;
+      const bool of_a_frame = inside.starts_with("/frames/"), of_a_time = inside.starts_with("/times/");
+      if (of_a_frame && (default_frames || entry.second < drives_)) continue;
+      if (of_a_time && entry.second < basins_) continue;
       auto problem = entry.first;
       problem.pointer = written_at(grammar_.record_text, split_pointer(inside));
       collector_.add(problem);
@@ -267,7 +277,7 @@ class Expander {
   void name_case(const scene::SceneSpec& scene) {
     Case one;
     one.scene = scene;
-    if (!scene.jet) {
+    if (!is_water(scene)) {
       one.bed_canonical = canonical_text(scene.bed);
       one.bed_id = case_id(one.bed_canonical);
     }
@@ -301,7 +311,7 @@ class Expander {
       collector_.add({"/exclude", fmt::format("leaves none of {} cases", total), "at least one case", ""});
       return;
     }
-    if (jets_ == kept_) report_unused_beside_jets();
+    report_unused_beside_water();
     for (const Assignment& assignment : grammar_.set) {
       if (used_settings_.contains(&assignment)) continue;
       collector_.add(
@@ -311,7 +321,8 @@ class Expander {
     const auto report_idle = [&](const Match& match) {
       collector_.add({pointer(match.place), "matches no case", "values that a case has", ""});
     };
-    if (recorded_ == 0) report_unused_without_pile();
+    if (drives_ == 0) report_unused_without_pile();
+    report_unused_record();
     for (std::size_t i = 0; i < met_.size(); ++i) {
       if (met_[i] == 0) report_idle(grammar_.when[i].condition);
     }
@@ -320,33 +331,56 @@ class Expander {
     }
   }
 
-  /// Where every case is a jet, what the base says of beds and piles is lost.
-  void report_unused_beside_jets() {
-    for (const char* part : kNotOfAJet) {
+  /// Where every case is water alone, what the base says of beds and piles is lost, and so is one water beside another.
+  void report_unused_beside_water() {
+    if (kinds_.contains("")) return;
+    const std::string_view first = kinds_.begin()->first;
+    const std::string all = kinds_.size() == 1 ? fmt::format("the scene is a {}", first) : "every scene is water alone";
+    for (const std::string& part : scene_schema().child_names()) {
       const Value* written = grammar_.base.find(part);
-      if (!written || written->kind == Value::Kind::null) continue;
-      collector_.add({pointer(written->place), "is not used: the scene is a jet", "nothing here, or jet null", ""});
+      if (kinds_.contains(part) || !written || written->kind == Value::Kind::null) continue;
+      collector_.add({pointer(written->place), fmt::format("is not used: {}", all),
+                      fmt::format("nothing here, or {} null", first), ""});
     }
   }
 
-  /// Beds are prepared by their own solver, and nothing is recorded along a pile.
+  /// Beds are prepared by their own solver.
   void report_unused_without_pile() {
+    if (kinds_.size() > 1 || !kinds_.contains("")) return;
     const auto report = [&](const PlacePtr& place) {
-      collector_.add({pointer(place), "is not used: no case of this study has a pile", "a pile in the base", ""});
+      collector_.add({pointer(place), kNoPile, "a pile in the base", ""});
     };
-    if (const Value* contact = grammar_.base.find("contact"); contact && jets_ == 0) report(contact->place);
-    if (!grammar_.fidelity.empty() && jets_ == 0) report(grammar_.fidelity.front().value.place);
-    if (!grammar_.record_text.items.empty()) report(grammar_.record_text.place);
+    if (const Value* contact = grammar_.base.find("contact")) report(contact->place);
+    if (!grammar_.fidelity.empty()) report(grammar_.fidelity.front().value.place);
   }
+
+  /// Nothing is recorded where nothing is driven and no basin moves.
+  void report_unused_record() {
+    const Value& written = grammar_.record_text;
+    if (written.items.empty()) return;
+    if (drives_ == 0 && basins_ == 0) {
+      collector_.add({pointer(written.place), kNoPile, "a pile in the base", ""});
+      return;
+    }
+    for (std::size_t i = 0; i < written.items.size(); ++i) {
+      const bool of_basin = std::ranges::find(kRecordOfABasin, written.keys[i]) != kRecordOfABasin.end();
+      if ((of_basin ? basins_ : drives_) > 0) continue;
+      collector_.add({pointer(written.items[i].place),
+                      of_basin ? "is not used: no case of this study is a basin" : kNoPile,
+                      of_basin ? "a basin in the base" : "a pile in the base", ""});
+    }
+  }
+
+  static constexpr const char* kNoPile = "is not used: no case of this study has a pile";
 
   const Grammar& grammar_;
   const std::filesystem::path& folder_;
   Collector collector_;
   Expansion result_;
-  std::vector<std::size_t> axis_indices_;    ///< the combination at hand, an index into each axis
-  std::vector<std::size_t> excluded_, met_;  ///< cases that each exclude and each when matched
-  std::size_t kept_ = 0, recorded_ = 0,
-              jets_ = 0;  ///< cases that are not excluded; of them those with a pile, and jets
+  std::vector<std::size_t> axis_indices_;           ///< the combination at hand, an index into each axis
+  std::vector<std::size_t> excluded_, met_;         ///< cases that each exclude and each when matched
+  std::size_t kept_ = 0, drives_ = 0, basins_ = 0;  ///< cases that are not excluded; of them those that are recorded
+  std::map<std::string_view, std::size_t> kinds_;   ///< of those cases, by water_of()
   std::set<const Assignment*> used_settings_;
   std::map<std::tuple<std::string, double, double>, std::optional<GrainFile>> grain_files_;
   std::map<std::string, std::pair<base::Problem, std::size_t>> record_problems_;  ///< by pointer, with their cases

@@ -45,6 +45,10 @@ constexpr std::array kJetFidelities = {
 };
 static_assert(kJetFidelities.size() == kFidelities.size());
 
+/// And for a basin: its step, and in the thesis its scheme in time, as the step there is a question of its own.
+constexpr std::array kBasinSteps = {0.0, 2e-3, 1e-3, 5e-4};  // [s]
+static_assert(kBasinSteps.size() == kFidelities.size());
+
 class Reader {
  public:
   Reader(const Value& document, const Options& options, Problems& problems)
@@ -246,13 +250,22 @@ class Reader {
     if (fidelity.substeps > 0)
       grammar_.fidelity.push_back({{"contact", "substeps"}, number_value(fidelity.substeps, value->place)});
 
+    const auto fill = [&](const char* path, Value filled) {
+      grammar_.fidelity.push_back({split_path(path), std::move(filled)});
+    };
     const JetFidelity& jet = kJetFidelities[*index];
-    for (const auto& [key, number] : {std::pair("lip_size", jet.lip_size), std::pair("growth", jet.growth),
-                                      std::pair("largest_size", jet.largest_size)})
-      grammar_.fidelity.push_back({{"jet", key}, number_value(number, value->place)});
-    if (std::string_view(fidelity.name) != "thesis") return;
-    grammar_.fidelity.push_back({{"jet", "method", "transient", "kinematic"}, string_value("differences", value->place)});
-    grammar_.fidelity.push_back({{"jet", "method", "transient", "order"}, number_value(1, value->place)});
+    fill("jet.lip_size", number_value(jet.lip_size, value->place));
+    fill("jet.growth", number_value(jet.growth, value->place));
+    fill("jet.largest_size", number_value(jet.largest_size, value->place));
+    if (std::string_view(fidelity.name) == "thesis") {
+      fill("jet.method.transient.kinematic", string_value("differences", value->place));
+      fill("jet.method.transient.order", number_value(1, value->place));
+      fill("basin.surface.scheme", string_value("galerkin", value->place));
+      fill("basin.time.order", number_value(1, value->place));
+      fill("basin.time.iterated", truth_value(false, value->place));
+    } else {
+      fill("basin.time.step", number_value(kBasinSteps[*index], value->place));
+    }
   }
 
   void read_command_line() {

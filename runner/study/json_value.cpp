@@ -47,12 +47,7 @@ class Builder {
   Value take() { return std::move(document_); }
 
   bool null() { return add({}); }
-  bool boolean(bool truth) {
-    Value value;
-    value.kind = Value::Kind::boolean;
-    value.truth = truth;
-    return add(std::move(value));
-  }
+  bool boolean(bool truth) { return add(truth_value(truth, nullptr)); }
   bool number_integer(number_integer_t number) {
     return number < -kLargestInteger ? beyond(std::to_string(number))
                                      : add(number_value(static_cast<double>(number), nullptr));
@@ -225,28 +220,36 @@ Value& Value::put(std::string key, Value value) {
   return items.emplace_back(std::move(value));
 }
 
-Value number_value(double number, PlacePtr place) {
+namespace {
+
+Value value_of(Value::Kind kind, PlacePtr place) {
   Value value;
-  value.kind = Value::Kind::number;
-  value.number = number;
+  value.kind = kind;
   value.place = std::move(place);
+  return value;
+}
+
+}  // namespace
+
+Value number_value(double number, PlacePtr place) {
+  Value value = value_of(Value::Kind::number, std::move(place));
+  value.number = number;
   return value;
 }
 
 Value string_value(std::string text, PlacePtr place) {
-  Value value;
-  value.kind = Value::Kind::string;
+  Value value = value_of(Value::Kind::string, std::move(place));
   value.text = std::move(text);
-  value.place = std::move(place);
   return value;
 }
 
-Value object_value(PlacePtr place) {
-  Value value;
-  value.kind = Value::Kind::object;
-  value.place = std::move(place);
+Value truth_value(bool truth, PlacePtr place) {
+  Value value = value_of(Value::Kind::boolean, std::move(place));
+  value.truth = truth;
   return value;
 }
+
+Value object_value(PlacePtr place) { return value_of(Value::Kind::object, std::move(place)); }
 
 std::string kind_name(const Value& value) {
   switch (value.kind) {

@@ -44,6 +44,7 @@ struct Value {
 
 Value number_value(double number, PlacePtr place);
 Value string_value(std::string text, PlacePtr place);
+Value truth_value(bool truth, PlacePtr place);
 Value object_value(PlacePtr place);  ///< without members
 
 /// What a value is, with its article: "a string", "true", "null".

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "runner/study/field_reader.h"
+#include "runner/study/schema.h"
 
 namespace seapile::study {
 namespace {
@@ -53,6 +54,16 @@ void erase_part(ResolvedScene& resolved, const std::string& path) {
 
 }  // namespace
 
+std::string_view water_of(const scene::SceneSpec& scene) {
+  if (scene.jet) return "jet";
+  return scene.basin ? "basin" : "";
+}
+
+bool heeds(const scene::SceneSpec& scene, std::string_view member_of_record) {
+  const bool of_basin = std::ranges::find(kRecordOfABasin, member_of_record) != kRecordOfABasin.end();
+  return of_basin == scene.basin.has_value();
+}
+
 bool uses(const grains::ContactSpec& contact, std::string_view member) {
   if (member == "precision") return contact.solver == grains::Solver::blocks;
   const bool soft = std::holds_alternative<grains::SoftMethod>(contact.method);
@@ -67,8 +78,10 @@ ResolvedScene resolve_all(const scene::SceneSpec& scene) {
 
 ResolvedScene resolve_used(const scene::SceneSpec& scene) {
   ResolvedScene resolved = resolve_all(scene);
-  if (scene.jet) {
-    for (const char* part : kNotOfAJet) erase_part(resolved, part);
+  if (const std::string_view water = water_of(scene); !water.empty()) {
+    for (const std::string& part : scene_schema().child_names()) {
+      if (part != water) erase_part(resolved, part);
+    }
     return resolved;
   }
   const auto drop_unused = [&](const grains::ContactSpec& contact, const std::string& path) {

@@ -27,17 +27,23 @@ inline constexpr std::array kDecidedByFile = {"bed.grains.count", "bed.grains.ra
 /// What only soft impulses have: for the non-smooth method these members of a contact solver do not exist.
 inline constexpr std::array kOfSoftMethod = {"substeps", "stiffness", "damping"};
 
-/// Parts of a scene that a jet has not.
-inline constexpr std::array kNotOfAJet = {"bed", "pile", "fluid", "contact"};
+/// What a record of a basin consists of; a drive's has all the rest.
+inline constexpr std::array kRecordOfABasin = {"interval", "times"};
+
+/// The one part that a scene of water alone consists of, "jet" or "basin"; "" where there are grains.
+std::string_view water_of(const scene::SceneSpec& scene);
 
 /// Whether a contact solver uses one of its own members.
 bool uses(const grains::ContactSpec& contact, std::string_view member);
 
+/// Whether the runs of a scene heed this member of a record.
+bool heeds(const scene::SceneSpec& scene, std::string_view member_of_record);
+
 /// Every value of the scene. A variant's path holds the name of its alternative.
 ResolvedScene resolve_all(const scene::SceneSpec& scene);
 
-/// Every value that the scene uses: a jet nothing but itself, without a pile no `contact`, with a grain file nothing that the file decides, and of
-/// a contact solver what its method has.
+/// Every value that the scene uses: water alone nothing but itself, without a pile no `contact`, with a grain file
+/// nothing that the file decides, and of a contact solver what its method has.
 ResolvedScene resolve_used(const scene::SceneSpec& scene);
 
 /// The paths that are written in `value`, which stands at `path`: its leaves and empty objects.

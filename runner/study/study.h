@@ -29,7 +29,8 @@ struct Case {
   std::string canonical;   ///< canonical text of the scene, in which the bed is its case id
   std::string id;          ///< SHA-256 of the canonical text, 64 hex digits
   std::string bed_canonical;
-  std::string bed_id;  ///< of the bed that the scene is built on; equal to `id` when the scene is the bed alone, "" when it has none
+  std::string bed_id;  ///< of the bed that the scene is built on; equal to `id` when the scene is the bed alone, ""
+                       ///< when it has none
   /// What distinguishes this case in its study: (dotted path, value as text with its unit), in the order of the axes.
   std::vector<std::pair<std::string, std::string>> labels;
 };
@@ -40,7 +41,7 @@ struct Study {
   std::filesystem::path file;
   std::string file_sha256;  ///< of the bytes that were parsed
   scene::RecordSpec record;
-  std::vector<Case> cases;  ///< in the order of the expansion, each id once
+  std::vector<Case> cases;    ///< in the order of the expansion, each id once
   std::vector<Check> checks;  ///< of those cases; no part of their identity
 };
 
@@ -71,6 +72,10 @@ std::string to_json(const scene::SceneSpec& scene);
 scene::SceneSpec scene_from_json(const std::string& text);
 std::string to_json(const scene::RecordSpec& record);
 scene::RecordSpec record_from_json(const std::string& text);
+
+/// What of a record the runs of a scene heed: as JSON, and with all the rest as by default.
+std::string to_json(const scene::RecordSpec& record, const scene::SceneSpec& scene);
+scene::RecordSpec record_of(const scene::RecordSpec& record, const scene::SceneSpec& scene);
 
 /// The grains of a bed's CSV file, rows by rising id ("grains/id", "grains/position", "grains/radius").
 /// Throws BadInput; also when the content is not the one that the bed's id was made from.

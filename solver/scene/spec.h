@@ -54,7 +54,7 @@ void fields(auto& visit, SameAs<BedSpec> auto& bed) {
   visit(part("file", "CSV file of grains (id,x,y,radius in m), relative to the study; \"\": drawn at random"), bed.file);
 }
 
-/// A case: a bed, and what is done to it; or a jet of fluid, which is a scene by itself.
+/// A case: a bed, and what is done to it; or water alone, a jet or a basin, which is a scene by itself.
 struct SceneSpec {
   BedSpec bed;
   std::optional<pile::PileSpec> pile;  ///< absent: the bed alone
@@ -72,6 +72,12 @@ void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
   visit(later(part("jet", "a jet from a die, instead of all the others; null: none")), scene.jet);
   visit(later(part("basin", "a basin of water without grains, instead of all the others; null: none")), scene.basin);
 }
+
+/// Whether the scene is water alone: no grains, and no bed that it is built on.
+inline bool is_water(const SceneSpec& scene) { return scene.jet || scene.basin; }
+
+/// Whether runs of the scene hand out what a RecordSpec asks for.
+inline bool is_recorded(const SceneSpec& scene) { return !scene.jet && (scene.basin || scene.pile); }
 
 /// What is kept of a run. Not part of a case's identity: it changes no bit of the simulation.
 struct RecordSpec {

@@ -2,12 +2,13 @@
 #include "solver/scene/validate.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 #include <string>
+
+#include "solver/scene/checks.h"
+#include "solver/scene/validate_basin.h"
 
 namespace seapile::scene {
 namespace {
@@ -22,21 +23,10 @@ constexpr double kLargestRatio = 100;
 constexpr double kLoosest = 0.75;
 // Solid fraction of a usual bed; with it the height of a bed is estimated, on the high side.
 constexpr double kUsual = 0.80;
-constexpr double kMostSteps = 1e9;
 // A step of the brute-force solver at this count takes as long as one of blocks at 100,000.
 constexpr std::int64_t kMostBruteForce = 500;
-constexpr double kMostRecords = 1e6;
-constexpr std::size_t kMostFrames = 10'000;
 constexpr double kMostCells = 1e7;
-// Steps per period below which a vibration is not the one that was asked for.
-constexpr double kFewestStepsPerPeriod = 10;
-
-std::string text(double number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 6).ptr};
-}
-
-std::string text(double number, const char* unit) { return text(number) + " " + unit; }
+const std::string kDriving = "/pile/driving";
 
 /// Mean area of a disc whose radius is uniform between the two bounds [m2].
 double mean_area(const grains::RadiusSpec& r) { return pi * (r.min * r.min + r.min * r.max + r.max * r.max) / 3; }
@@ -53,47 +43,6 @@ double estimated_height(const BedSpec& bed) {
   return grain_area(bed.grains) / (bed.preparation.solid_fraction.value_or(kUsual) * bed.domain.width);
 }
 
-/// What a drive does in a time, each bounded from above.
-struct Motion {
-  double down;  ///< deepest displacement [m]
-  double path;  ///< length of the way up and down [m]
-};
-
-Motion motion(const pile::ConstantDriving& drive, double time) {
-  return {std::max(0.0, drive.speed * time), std::abs(drive.speed) * time};
-}
-
-Motion motion(const pile::SinusoidalDriving& drive, double time) {
-  const double half_period = std::min(time, 0.5 / drive.frequency);
-  const double stroke =
-      drive.speed / (2 * pi * drive.frequency) * (1 - std::cos(2 * pi * drive.frequency * half_period));
-  return {std::max(0.0, stroke), std::abs(drive.speed) * time};
-}
-
-Motion motion(const pile::VibratoryDriving& drive, double time) {
-  return {std::max(0.0, drive.speed * time) + 2 * drive.amplitude,
-          std::abs(drive.speed) * time + 4 * drive.amplitude * drive.frequency * time};
-}
-
-Motion motion(const pile::Driving& driving, double time) {
-  return std::visit([&](const auto& drive) { return motion(drive, time); }, driving);
-}
-
-/// Speed averaged over a period [m/s]; a sine by itself goes nowhere.
-double mean_speed(const pile::Driving& driving) {
-  if (std::holds_alternative<pile::SinusoidalDriving>(driving)) return 0;
-  if (const auto* constant = std::get_if<pile::ConstantDriving>(&driving)) return constant->speed;
-  return std::get<pile::VibratoryDriving>(driving).speed;
-}
-
-/// Largest speed [m/s].
-double largest_speed(const pile::Driving& driving) {
-  if (const auto* constant = std::get_if<pile::ConstantDriving>(&driving)) return std::abs(constant->speed);
-  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&driving)) return std::abs(sine->speed);
-  const auto& vibratory = std::get<pile::VibratoryDriving>(driving);
-  return std::abs(vibratory.speed) + 2 * pi * vibratory.frequency * vibratory.amplitude;
-}
-
 /// Duration of a run as far as its scene tells it [s]; infinite when it never ends.
 double duration(const pile::PileSpec& pile) {
   double time = pile.duration.value_or(std::numeric_limits<double>::infinity());
@@ -103,11 +52,6 @@ double duration(const pile::PileSpec& pile) {
     if (sine->speed / (pi * sine->frequency) >= *pile.depth) time = std::min(time, 0.5 / sine->frequency);
   }
   return time;
-}
-
-std::string driving_pointer(const pile::Driving& driving, const char* key) {
-  const char* name = std::visit([](const auto& drive) { return std::decay_t<decltype(drive)>::kName; }, driving);
-  return std::string("/pile/driving/") + name + "/" + key;
 }
 
 void check_grains(const BedSpec& bed, Problems& problems) {
@@ -140,7 +84,8 @@ void check_grains(const BedSpec& bed, Problems& problems) {
 void check_solver(const grains::ContactSpec& contact, std::int64_t count, const std::string& pointer,
                   Problems& problems) {
   if (contact.solver != grains::Solver::brute_force || count <= kMostBruteForce) return;
-  problems.push_back({pointer + "/solver", "compares all grains with all: " + text(static_cast<double>(count)) + " are too many",
+  problems.push_back({pointer + "/solver",
+                      "compares all grains with all: " + text(static_cast<double>(count)) + " are too many",
                       "brute_force for at most " + text(static_cast<double>(kMostBruteForce)) + " grains", ""});
 }
 
@@ -162,14 +107,11 @@ void check_pile_shape(const pile::PileSpec& pile, const BedSpec& bed, Problems& 
                         widest > 0 ? "below " + text(widest, "m") : "no pile fits into this box", ""});
     return;
   }
-  if (const auto* cone = std::get_if<pile::ConicalTip>(&pile.tip)) {
-    const double length = pile.radius / std::tan(cone->apex_angle / 2);
-    if (length > bed.domain.height) {
-      const double sharpest = 2 * std::atan(pile.radius / bed.domain.height) * 180 / pi;
-      problems.push_back({"/pile/tip/conical/apex_angle",
-                          "makes a tip of " + text(length, "m") + ", longer than the box is high",
-                          "at least " + text(sharpest, "deg"), ""});
-    }
+  if (const double length = tip_height(pile.radius, pile.tip); length > bed.domain.height) {
+    const double sharpest = 2 * std::atan(pile.radius / bed.domain.height) * 180 / pi;
+    problems.push_back({"/pile/tip/conical/apex_angle",
+                        "makes a tip of " + text(length, "m") + ", longer than the box is high",
+                        "at least " + text(sharpest, "deg"), ""});
   }
 }
 
@@ -194,8 +136,8 @@ void check_pile_end(const pile::PileSpec& pile, const BedSpec& bed, std::optiona
         return;
       }
     } else if (mean_speed(pile.driving) <= 0) {
-      problems.push_back({driving_pointer(pile.driving, "speed"), "never reaches the depth, the only end of this run",
-                          "more than 0 m/s, or a duration", ""});
+      problems.push_back({driving_pointer(kDriving, pile.driving, "speed"),
+                          "never reaches the depth, the only end of this run", "more than 0 m/s, or a duration", ""});
       return;
     }
   }
@@ -217,7 +159,7 @@ void check_pile_steps(const SceneSpec& scene, Problems& problems) {
   const double time = duration(pile);
   if (std::isfinite(time) && time / step > kMostSteps) {
     const bool by_time = pile.duration && *pile.duration <= time;
-    problems.push_back({by_time ? "/pile/duration" : driving_pointer(pile.driving, "speed"),
+    problems.push_back({by_time ? "/pile/duration" : driving_pointer(kDriving, pile.driving, "speed"),
                         "makes a run of " + text(time, "s") + ", " + text(time / step) + " steps of " + text(step, "s"),
                         "at most 1e9 steps", ""});
   }
@@ -230,15 +172,7 @@ void check_pile_steps(const SceneSpec& scene, Problems& problems) {
          "lets the pile move by " + text(speed * step, "m") + " in one step, more than the smallest radius",
          "at most " + text(smallest / speed, "s"), ""});
   }
-
-  const auto check_frequency = [&](double frequency) {
-    if (frequency * step * kFewestStepsPerPeriod <= 1) return;
-    problems.push_back({driving_pointer(pile.driving, "frequency"),
-                        "has fewer than 10 steps of " + text(step, "s") + " per period",
-                        "at most " + text(1 / (kFewestStepsPerPeriod * step), "Hz"), ""});
-  };
-  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&pile.driving)) check_frequency(sine->frequency);
-  if (const auto* vibratory = std::get_if<pile::VibratoryDriving>(&pile.driving)) check_frequency(vibratory->frequency);
+  check_period(pile.driving, step, kDriving, problems);
 }
 
 /// Depth that the pile does not pass [m].
@@ -248,21 +182,12 @@ double deepest(const pile::PileSpec& pile) {
   return std::min(pile.depth.value_or(kInfinity), by_time);
 }
 
-void check_frames(const std::vector<double>& frames, double deepest, Problems& problems) {
-  std::set<double> seen;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const std::string pointer = "/frames/" + std::to_string(i);
-    if (frames[i] > deepest) {
-      problems.push_back({pointer, "is deeper than the pile goes", "at most " + text(deepest, "m"), ""});
-    }
-    if (!seen.insert(frames[i]).second) problems.push_back({pointer, "is there twice", "each depth once", ""});
-  }
-}
-
 }  // namespace
 
 Problems validate(const SceneSpec& scene, std::optional<double> bed_height) {
   Problems problems;
+  if (scene.jet) return problems;
+  if (scene.basin) return validate_basin(*scene.basin);
   check_grains(scene.bed, problems);
   check_settling(scene.bed, problems);
   check_solver(scene.bed.preparation.contact, scene.bed.grains.count, "/bed/preparation/contact", problems);
@@ -278,15 +203,12 @@ Problems validate(const SceneSpec& scene, std::optional<double> bed_height) {
 
 Problems validate(const RecordSpec& record, const SceneSpec& scene) {
   Problems problems;
-  if (!scene.pile) return problems;
+  if (!is_recorded(scene)) return problems;
+  if (scene.basin) return validate_record(record, *scene.basin);
   const pile::PileSpec& pile = *scene.pile;
   const DomainSpec& box = scene.bed.domain;
 
-  if (record.frames.size() > kMostFrames) {
-    problems.push_back({"/frames", "has " + std::to_string(record.frames.size()) + " depths", "at most 10000", ""});
-  } else {
-    check_frames(record.frames, deepest(pile), problems);
-  }
+  check_frames(record.frames, deepest(pile), {"frames", "depth", "is deeper than the pile goes", "m"}, problems);
 
   if (const double time = duration(pile); std::isfinite(time)) {
     const double path = motion(pile.driving, time).path;

@@ -54,19 +54,27 @@ std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpe
 
 std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
   if (scene.jet) return {{"mesh", 1}, {"fluid", 1}, {"free_surface", 1}};
+  if (scene.basin) return {{"mesh", 1}, {"fluid", 1}, {"free_surface", 1}, {"basin", 1}};
   return {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
 }
 
 std::vector<Part> parts(const scene::SceneSpec& scene) {
-  if (scene.jet) {
-    const std::string jet = "the scene is a jet of fluid";
-    return {{"grains", false, jet},
-            {"walls", false, jet},
-            {"pile", false, jet},
-            {"restitution", false, jet},
+  if (is_water(scene)) {
+    const std::string water = scene.jet ? "the scene is a jet of fluid" : "the scene is a basin of water";
+    const bool pile = !scene.jet && scene.basin->pile, free = scene.jet || scene.basin->surface;
+    return {{"grains", false, water},
+            {"walls", false, water},
+            {"pile", pile,
+             scene.jet ? water
+             : pile    ? "the basin has a pile"
+                       : "the basin has none: \"pile\" is null"},
+            {"restitution", false, water},
             {"mesh", true, "the fluid lives on it"},
-            {"fluid", true, jet},
-            {"free_surface", true, "the jet finds its own shape"}};
+            {"fluid", true, water},
+            {"free_surface", free,
+             scene.jet ? "the jet finds its own shape"
+             : free    ? "the water's top moves"
+                       : "the top is fixed: \"surface\" is null"}};
   }
   const std::string dry = "the scene is dry: \"fluid\" is null";
   return {{"grains", true, "the bed has " + std::to_string(scene.bed.grains.count) + " grains"},

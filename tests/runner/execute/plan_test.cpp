@@ -19,7 +19,8 @@ struct PlanTest : testing::Test {
   study::Study study = fake::make_study({{"flat", "bed"}, {"cone", "bed"}});
 
   Plan plan(const std::vector<simulation::NumericsVersion>& numerics = kNumerics) {
-    return make_plan(study, [&](const scene::SceneSpec&) { return numerics; }, disk.look());
+    return make_plan(
+        study, [&](const scene::SceneSpec&) { return numerics; }, disk.look());
   }
   void complete_all() {
     disk.complete_bed("bed");
@@ -110,6 +111,33 @@ TEST_F(PlanTest, AnotherRhythmWindowOrGridIsNotCovered) {
   EXPECT_THAT(lacking(have, travel), HasSubstr("travel between records"));
   EXPECT_THAT(lacking(have, window), HasSubstr("window"));
   EXPECT_THAT(lacking(have, spacing), HasSubstr("grid spacing"));
+}
+
+TEST_F(PlanTest, ABasinIsFreshWhileItsTimesAreKept) {
+  scene::RecordSpec have;
+  have.times = {1, 2};
+  study = fake::make_study({{"basin", ""}});
+  study.cases[0].scene = {};
+  study.cases[0].scene.basin.emplace();
+  disk.complete_drive("basin", "0001", "");
+  disk.histories["basin"].past->record = have;
+  study.record = have;
+  study.record.travel = 2 * have.travel;
+  EXPECT_EQ(plan().tasks.size(), 1u);
+  EXPECT_EQ(plan().tasks[0].kind, Kind::flow);
+  EXPECT_EQ(plan().tasks[0].decision.action, Action::fresh) << "a basin does not heed the pile's travel";
+  study.record.times = {2, 3};
+  EXPECT_EQ(plan().tasks[0].decision.reason, "frame at 3 s not recorded");
+  study.record = have;
+  study.record.interval = 0.5;
+  EXPECT_EQ(plan().tasks[0].decision.reason, "interval between records of 0.01 s recorded, 0.5 s asked for");
+}
+
+TEST_F(PlanTest, ADriveDoesNotHeedWhatIsRecordedOfABasin) {
+  complete_all();
+  study.record.interval = 0.5;
+  study.record.times = {1};
+  for (const Task& task : plan().tasks) EXPECT_EQ(task.decision.action, Action::fresh) << task.decision.reason;
 }
 
 InterruptedRun interrupted_run() { return {"0001", true, kNumerics, scene::RecordSpec{}, "0001"}; }

@@ -39,6 +39,22 @@ TEST(Request, ComesBackAsItWasSent) {
   EXPECT_EQ(read.parent, sent.parent);
 }
 
+TEST(Request, ABasinComesBackWithItsRecord) {
+  Request sent;
+  sent.root = "/some/where";
+  sent.kind = "flow";
+  sent.scene.basin.emplace().surface.reset();
+  sent.canonical = study::canonical_text(sent.scene, "");
+  sent.case_id = study::case_id(sent.canonical);
+  sent.record.interval = 0.125;
+  sent.record.times = {0.25, 0.5};
+  const Request read = request_from_json(to_json(sent), "-");
+  EXPECT_EQ(read.scene, sent.scene);
+  EXPECT_EQ(read.record, sent.record);
+  sent.kind = "drive";
+  EXPECT_THROW(request_from_json(to_json(sent), "-"), study::BadInput);
+}
+
 TEST(Request, WhatDoesNotFitTogetherIsRefused) {
   const auto refused = [](auto change) {
     Request request = a_drive();

@@ -35,7 +35,8 @@ TEST(GoldenV1, HasTheManifestThatWasWritten) {
   EXPECT_EQ(manifest.header.bed_run, "0001");
   EXPECT_EQ(manifest.records, 20U);
   EXPECT_EQ(manifest.frames, 2U);
-  EXPECT_EQ(manifest.flow_frames, 0U);  // It does not say.
+  EXPECT_EQ(manifest.flow_records, 0U);  // It does not say.
+  EXPECT_EQ(manifest.flow_frames, 0U);
   EXPECT_EQ(manifest.result.outcome, simulation::Outcome::completed);
   EXPECT_EQ(manifest.result.time, 20.01);
   EXPECT_EQ(manifest.result.depth, 1.2);

@@ -17,6 +17,7 @@ Manifest sample_manifest() {
   manifest.header = sample::drive_header();
   manifest.records = 20;
   manifest.frames = 2;
+  manifest.flow_records = 7;
   manifest.flow_frames = 3;
   manifest.result = sample::drive_result();
   manifest.provenance = sample::provenance();
@@ -31,6 +32,7 @@ TEST(Manifest, GivesBackWhatWasSaid) {
   // Text for text: whatever is in one is in the other.
   EXPECT_EQ(manifest_text(out), manifest_text(in));
   EXPECT_EQ(out.run, "0003");
+  EXPECT_EQ(out.flow_records, 7U);
   EXPECT_EQ(out.flow_frames, 3U);
   EXPECT_EQ(out.header.case_id, in.header.case_id);
   EXPECT_EQ(out.header.canonical, in.header.canonical);

@@ -12,6 +12,7 @@ using simulation::Array;
 using simulation::ArrayInfo;
 using simulation::Entity;
 using simulation::FlowFrame;
+using simulation::FlowRecord;
 
 /// Values of an array with so many rows, others for every stream.
 Array filled(ArrayInfo info, std::uint64_t stream, std::size_t rows, double low, double high) {
@@ -57,6 +58,36 @@ RunHeader flow_header() {
   header.parts = {{"mesh", true, "a flow has a mesh"}, {"fluid", true, "a flow has a fluid"}};
   header.numerics = {{"fluid", 1}, {"mesh", 3}};
   return header;
+}
+
+RunHeader basin_header() {
+  RunHeader header = flow_header();
+  header.canonical = R"({"basin":{"width":1}})";
+  header.case_id = sha256(header.canonical);
+  header.scene_json = header.canonical;
+  header.record_json = R"({"interval":0.05,"times":[0.5]})";
+  header.numerics.push_back({"basin", 1});
+  return header;
+}
+
+FlowRecord flow_record(std::size_t index) {
+  FlowRecord record;
+  std::uint64_t column = 0;
+  columns([&](const char*, const char*, const char*,
+              double& value) { value = uniform(80'000 + column++, index) * 2e-3 - 1e-3; },
+          record);
+  record.time = 0.05 * static_cast<double>(index);
+  for (double* of_pile : {&record.pile_depth, &record.pile_speed, &record.pile_force_x, &record.pile_force_y}) {
+    *of_pile = FlowRecord::kAbsent;
+  }
+  if (index % 4 == 1) record.middle = FlowRecord::kAbsent;
+  return record;
+}
+
+std::vector<FlowRecord> flow_records(std::size_t first, std::size_t count) {
+  std::vector<FlowRecord> list;
+  for (std::size_t i = first; i < first + count; ++i) list.push_back(flow_record(i));
+  return list;
 }
 
 simulation::RunResult flow_result() {
@@ -112,6 +143,10 @@ std::filesystem::path write_flow(const std::filesystem::path& root) {
   }
   writer.finish(flow_result(), provenance(), nullptr);
   return folder;
+}
+
+std::string difference(const std::vector<FlowRecord>& a, const std::vector<FlowRecord>& b) {
+  return same_bits(a, b) ? "" : "records of the water";
 }
 
 std::string difference(const FlowFrame& a, const FlowFrame& b) {

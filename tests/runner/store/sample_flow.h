@@ -17,7 +17,13 @@ simulation::FlowFrame flow_frame(std::size_t index);
 /// Returns the run's folder.
 std::filesystem::path write_flow(const std::filesystem::path& root);
 
+/// A basin without a pile: columns that are absent from every record, and from some the height in the middle.
+RunHeader basin_header();
+simulation::FlowRecord flow_record(std::size_t index);
+std::vector<simulation::FlowRecord> flow_records(std::size_t first, std::size_t count);
+
 /// The first difference bit for bit; empty: none.
+std::string difference(const std::vector<simulation::FlowRecord>& a, const std::vector<simulation::FlowRecord>& b);
 std::string difference(const simulation::FlowFrame& a, const simulation::FlowFrame& b);
 
 }  // namespace seapile::store::sample

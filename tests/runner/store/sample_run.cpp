@@ -1,6 +1,5 @@
 #include "tests/runner/store/sample_run.h"
 
-#include <cstring>
 #include <limits>
 
 #include "runner/store/sha256.h"
@@ -46,10 +45,6 @@ std::vector<Array> bed_grains() {
   return {{{"grains/id", "-", "number of the grain", 1, Entity::grain}, ids(kGrains)},
           {{"grains/position", "m", "place of the centre", 2, Entity::grain}, values(1, 2 * kGrains, -2.5, 4)},
           {{"grains/radius", "m", "radius", 1, Entity::grain}, values(2, kGrains, 1.12e-2, 1.92e-2)}};
-}
-
-bool same_bits(const auto& a, const auto& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
 }  // namespace

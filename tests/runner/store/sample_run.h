@@ -2,6 +2,7 @@
 // values in every place, so that a swapped or shifted one is noticed.
 #pragma once
 
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@ inline constexpr std::size_t kGrains = 50;
 
 /// A number in [0, 1), another one for each pair of arguments.
 double uniform(std::uint64_t stream, std::uint64_t index);
+
+bool same_bits(const auto& a, const auto& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+}
 
 RunHeader bed_header();
 RunHeader drive_header();

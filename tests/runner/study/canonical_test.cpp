@@ -74,9 +74,10 @@ TEST(Canonical, AnySceneComesBackFromItsJson) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
     scene::SceneSpec scene;
     AnyValue(seed).fill(scene);
-    if (scene.jet) {  // which is handed over alone
+    if (is_water(scene)) {  // which is handed over alone
       scene::SceneSpec alone;
       alone.jet = scene.jet;
+      if (!scene.jet) alone.basin = scene.basin;
       scene = alone;
     }
     if (!scene.bed.file.empty()) scene.bed.file_content = sha256(scene.bed.file);
@@ -98,6 +99,55 @@ TEST(Canonical, AJetIsKnownByItselfAlone) {
   scene.bed.seed = 7;
   scene.contact.step = 1e-4;
   EXPECT_EQ(canonical_text(scene, ""), text);
+}
+
+// The ids of stored basins hang on this text and on this hash.
+TEST(Canonical, ABasinIsKnownByItselfAlone) {
+  scene::SceneSpec scene;
+  basin::BasinSpec& basin = scene.basin.emplace();
+  const std::string text = canonical_text(scene, "");
+  EXPECT_EQ(text,
+            R"({"basin":{"bottom":"slip","density":1000,"depth":0.25,"gravity":9.81,"mesh":{"motion":{"vertical":{}},)"
+            R"("pattern":{"structured":{"bottom_row":1,"columns":192,"rows":24}},"remesh":null},"pile":null,)"
+            R"("surface":{"initial":{"flat":{}},"scheme":"conservative","tension":0,"volume_correction":false},)"
+            R"("time":{"duration":1,"iterated":true,"order":2,"rate":null,"step":0.001,"tolerance":1e-09},)"
+            R"("viscosity":0.001,"walls":"slip","width":1}})");
+  EXPECT_EQ(case_id(text), "432a2b59a18b21c93a4f82d19e318e6c5254baa3626f4077d3f04f607eed6fac");
+  scene.bed.seed = 7;
+  scene.contact.step = 1e-4;
+  EXPECT_EQ(canonical_text(scene, ""), text);
+
+  basin.pile.emplace();
+  basin.mesh = {basin::UnstructuredMesh{}, basin::ZonesMotion{}, basin::RemeshSpec{}};
+  basin.surface->initial = basin::CosineSurface{};
+  EXPECT_EQ(case_id(canonical_text(scene, "")), "539c2348f59dd357da0f019ad63fca6b78ee72ed3e99225d9612d7a311a3f719")
+      << canonical_text(scene, "");
+}
+
+// A scene that was stored before there was water has kept its name.
+TEST(Canonical, WaterThatIsNotThereChangesNoId) {
+  scene::SceneSpec scene;
+  scene.pile.emplace();
+  const std::string text = canonical_text(scene, "00");
+  EXPECT_EQ(text.find("basin"), std::string::npos);
+  EXPECT_EQ(text.find("jet"), std::string::npos);
+  const std::string record = canonical_text(scene::RecordSpec{});
+  EXPECT_EQ(record, R"({"frames":[0,0.2,0.6,1.2],"spacing":0.05,"travel":5e-04,"window":0.01})");
+}
+
+TEST(Canonical, ARecordIsWhatTheSceneHeedsOfIt) {
+  scene::RecordSpec record;
+  record.travel = 1e-3;
+  record.interval = 0.5;
+  record.times = {1, 2};
+  scene::SceneSpec drive, basin;
+  drive.pile.emplace();
+  basin.basin.emplace();
+  EXPECT_EQ(to_json(record, drive), R"({"frames":[0,0.2,0.6,1.2],"spacing":0.05,"travel":0.001,"window":0.01})");
+  EXPECT_EQ(to_json(record, basin), R"({"interval":0.5,"times":[1,2]})");
+  EXPECT_EQ(record_of(record, basin).travel, scene::RecordSpec{}.travel);
+  EXPECT_EQ(record_of(record, basin).times, record.times);
+  EXPECT_EQ(record_of(record, drive).interval, scene::RecordSpec{}.interval);
 }
 
 TEST(Canonical, AnyRecordComesBackFromItsJson) {

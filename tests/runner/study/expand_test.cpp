@@ -176,6 +176,41 @@ TEST_F(Expand, WhatTheStudySaysItselfStandsAboveItsFidelity) {
   EXPECT_EQ(axis.cases[1].scene.contact.substeps, 8);
 }
 
+TEST_F(Expand, ABasinIsACaseWithoutABed) {
+  const Study two =
+      study(R"("axes": {"basin.depth": ["25 cm", 0.5]}, "record": {"interval": "20 ms", "times": [0.5]})");
+  ASSERT_EQ(two.cases.size(), 2u);
+  EXPECT_EQ(two.cases[0].bed_id, "");
+  EXPECT_EQ(two.cases[0].scene.basin, basin::BasinSpec{});
+  EXPECT_EQ(two.cases[1].scene.basin->depth, 0.5);
+  EXPECT_THAT(two.cases[1].labels, ElementsAre(std::pair<std::string, std::string>("basin.depth", "0.5 m")));
+  EXPECT_THAT(two.record.times, ElementsAre(0.5));
+  EXPECT_EQ(two.record.interval, 0.02);
+}
+
+TEST_F(Expand, FidelityOfABasinIsItsStepOrTheSchemeOfTheThesis) {
+  const auto basin = [&](const std::string& members) { return *study(members).cases[0].scene.basin; };
+  EXPECT_EQ(basin(R"("base": {"basin": {}}, "fidelity": "standard")"), basin::BasinSpec{});
+  basin::BasinSpec draft, fine, thesis;
+  draft.time.step = 2e-3;
+  fine.time.step = 5e-4;
+  thesis.time.order = 1;
+  thesis.time.iterated = false;
+  thesis.surface->scheme = basin::SurfaceScheme::galerkin;
+  EXPECT_EQ(basin(R"("base": {"basin": {}}, "fidelity": "draft")"), draft);
+  EXPECT_EQ(basin(R"("base": {"basin": {}}, "fidelity": "reference")"), fine);
+  EXPECT_EQ(basin(R"("base": {"basin": {}}, "fidelity": "thesis")"), thesis);
+  thesis.surface.reset();
+  EXPECT_EQ(basin(R"("base": {"basin": {"surface": null}}, "fidelity": "thesis")"), thesis);
+  draft.time.step = 1e-2;
+  EXPECT_EQ(basin(R"("base": {"basin": {"time": {"step": 0.01}}}, "fidelity": "draft")"), draft);
+}
+
+TEST_F(Expand, ATimeThatOneBasinReachesIsFine) {
+  EXPECT_THAT(study(R"("axes": {"basin.time.duration": [1, 3]}, "record": {"times": [2]})").record.times,
+              ElementsAre(2));
+}
+
 TEST_F(Expand, AnIdDependsOnTheSceneAndNotOnHowItIsSaid) {
   const std::string one = study(R"("base": {"pile": {"depth": 1.2, "tip": "conical"}, "fluid": null})").cases[0].id;
   EXPECT_EQ(study(R"("base": {"pile": {}})").cases[0].id, one);

@@ -41,7 +41,7 @@ class Table {
     if constexpr (std::is_same_v<T, std::optional<double>>) {
       row(path, member ? with_unit(*member, field) : "null", range_text(field) + ", null", field.meaning);
     } else if constexpr (kIsOptional<T>) {
-      row(path, "null", "null or as below", field.meaning);
+      row(path, member ? "as below" : "null", "null or as below", field.meaning);
       add(member.emplace(), path + ".");
     } else if constexpr (kIsVariant<T>) {
       row(path, alternative_names(member)[member.index()],
@@ -61,6 +61,8 @@ class Table {
           field.meaning);
     } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
       row(path, "null", "null", field.meaning);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      row(path, member ? "true" : "false", "true, false", field.meaning);
     } else if constexpr (std::is_arithmetic_v<T>) {
       row(path, with_unit(static_cast<double>(member), field), range_text(field), field.meaning);
     } else if constexpr (std::is_same_v<T, grains::ContactSpec>) {

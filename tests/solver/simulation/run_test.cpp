@@ -178,5 +178,36 @@ TEST(NumericsVersions, NameEveryModuleOnce) {
   EXPECT_THAT(names, testing::UnorderedElementsAre("grains", "pile", "bed", "record"));
 }
 
+TEST(NumericsVersions, ABasinHasThoseOfTheWaterAndItsOwn) {
+  scene::SceneSpec scene;
+  scene.basin.emplace();
+  std::vector<std::string> names;
+  for (const NumericsVersion& v : numerics_versions(scene)) names.push_back(v.module);
+  EXPECT_THAT(names, testing::ElementsAre("mesh", "fluid", "free_surface", "basin"));
+}
+
+TEST(Parts, ABasinSaysWhatItIsBuiltWithAndWhy) {
+  const auto of = [](const scene::SceneSpec& scene, const std::string& name) {
+    for (const Part& part : parts(scene)) {
+      if (part.name == name) return part;
+    }
+    throw std::out_of_range(name);
+  };
+  scene::SceneSpec scene;
+  scene.basin.emplace();
+  for (const char* dry : {"grains", "walls", "restitution"}) {
+    EXPECT_FALSE(of(scene, dry).built);
+    EXPECT_EQ(of(scene, dry).reason, "the scene is a basin of water");
+  }
+  for (const char* wet : {"mesh", "fluid", "free_surface"}) EXPECT_TRUE(of(scene, wet).built) << wet;
+  EXPECT_FALSE(of(scene, "pile").built);
+  EXPECT_EQ(of(scene, "pile").reason, "the basin has none: \"pile\" is null");
+  scene.basin->pile.emplace();
+  scene.basin->surface.reset();
+  EXPECT_TRUE(of(scene, "pile").built);
+  EXPECT_FALSE(of(scene, "free_surface").built);
+  EXPECT_EQ(of(scene, "free_surface").reason, "the top is fixed: \"surface\" is null");
+}
+
 }  // namespace
 }  // namespace seapile::simulation

@@ -1,0 +1,63 @@
+// A basin through the real program: its series, its frames at several times, killed and continued, and refused.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/runner/execute/water_job.h"
+
+namespace seapile::execute {
+namespace {
+
+namespace fs = std::filesystem;
+using commands::Finished;
+using testing::HasSubstr;
+
+/// A standing wave on a coarse mesh; `more` goes into the basin, `top` into the study.
+std::string basin_study(const std::string& more = "", const std::string& top = "") {
+  return fmt::format(R"({{"study": "basin", {} "base": {{"basin": {{"surface": {{"initial": {{"cosine": {{}}}}}},
+    "mesh": {{"pattern": {{"structured": {{"columns": 16, "rows": 4}}}}}}, "time": {{"step": 0.01, "duration": 0.3}}{}}}}}}})",
+                     top, more);
+}
+
+using BasinJob = WaterJob;
+
+TEST_F(BasinJob, IsSealedWithItsPartsItsSeriesAndItsFrames) {
+  place.write("water.json", basin_study("", R"("record": {"interval": 0.05, "times": [0.1, 0.2]},)"));
+  const Finished finished = place.run({"water.json"});
+  ASSERT_EQ(finished.exit_code, kDone) << finished.error;
+  const store::Manifest manifest = result();
+  EXPECT_EQ(manifest.header.kind, "flow");
+  EXPECT_EQ(manifest.header.record_json, R"({"interval":0.05,"times":[0.1,0.2]})");
+  for (const simulation::Part& part : manifest.header.parts)
+    EXPECT_EQ(part.built, part.name == "mesh" || part.name == "fluid" || part.name == "free_surface") << part.name;
+  const fs::path run = run_in(place.results());
+  EXPECT_TRUE(store::verify(run).empty());
+  const std::vector<simulation::FlowRecord> records = store::read_flow_series(run);
+  ASSERT_EQ(records.size(), 7u);
+  for (std::size_t i = 0; i < records.size(); ++i) EXPECT_NEAR(records[i].time, 0.05 * static_cast<double>(i), 1e-12);
+  EXPECT_TRUE(std::isnan(records[3].pile_depth));
+  ASSERT_EQ(store::flow_frame_count(run), 4u);
+  EXPECT_NEAR(store::read_flow_frame(run, 2).time, 0.2, 1e-12);
+  // What is fresh is not run again, with fewer frames too; another time is.
+  EXPECT_THAT(place.run({"water.json", "--set", "record.times=[0.1]"}).error, HasSubstr("nothing to run"));
+  EXPECT_THAT(place.run({"water.json", "--dry-run", "--set", "record.times=[0.15]"}).out +
+                  place.run({"water.json", "--dry-run", "--set", "record.times=[0.15]"}).error,
+              HasSubstr("frame at 0.15 s not recorded"));
+}
+
+TEST_F(BasinJob, KilledAndContinuedItEndsInTheSameBits) {
+  expect_the_same_bits_when_killed(basin_study(
+      R"(, "viscosity": 0.01)", R"("record": {"interval": 0.01, "times": [0.05, 0.15, 0.25]},)"));
+}
+
+TEST_F(BasinJob, WhatIsWrongIsToldAtOnceAndNothingIsWritten) {
+  place.write("water.json", R"({"study": "basin", "base": {"basin": {"depth": 2, "pile": {}}}})");
+  const Finished refused = place.run({"water.json"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.error, HasSubstr("/base/basin/mesh/pattern: is structured"));
+  EXPECT_THAT(refused.error, HasSubstr("/base/basin/mesh/motion: is vertical"));
+  EXPECT_FALSE(fs::exists(place.results()));
+}
+
+}  // namespace
+}  // namespace seapile::execute
