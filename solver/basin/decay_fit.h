@@ -2,7 +2,7 @@
 //
 //   a(t) = exp(-d t)(A cos w t + B sin w t) + c
 //
-// by least squares: w and d from a table, with the best A, B and c of each; then all five by Levenberg-Marquardt. All
+// by least squares: w from a table, without decay, with the best A, B and c; then all five by Levenberg-Marquardt. All
 // samples weigh the same: what a solver adds (its tolerance, the last digits) does not decay with the wave, and weights
 // that grow like exp(d t) would listen to it. c takes up what a drift of the mean would make of d.
 //

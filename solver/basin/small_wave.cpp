@@ -85,23 +85,15 @@ Complex nearly_inviscid(const Scaled& wave) {
   return -2 * wave.viscosity - layer;
 }
 
-/// The mode as its distance from i; absent when overdamped. Follows it from a viscosity so small that the estimate
-/// holds; where the pair meets on the real axis there is nothing more to follow.
+/// The mode as its distance from i; absent when overdamped. It is followed from a viscosity at which the estimate
+/// holds; once the pair has met on the real axis, Newton's method leaves the half-plane.
 std::optional<Complex> root(const Scaled& wave) {
   Scaled at = wave;
-  while (std::abs(nearly_inviscid(at)) > 0.1) at.viscosity /= 4;
+  while (std::abs(nearly_inviscid(at)) > 0.1) at.viscosity /= 2;
   std::optional<Complex> found = root_near(at, nearly_inviscid(at));
-  double stride = 2;
   while (found && at.viscosity < wave.viscosity) {
-    Scaled next = at;
-    next.viscosity = std::min(at.viscosity * stride, wave.viscosity);
-    if (const auto further = root_near(next, *found)) {
-      at = next;
-      found = further;
-    } else {
-      stride = std::sqrt(stride);
-      if (stride < 1 + 1e-12) return {};
-    }
+    at.viscosity = std::min(2 * at.viscosity, wave.viscosity);
+    found = root_near(at, *found);
   }
   return found;
 }
@@ -151,8 +143,7 @@ std::vector<double> amplitude(const SmallWave& wave, std::span<const double> tim
   const auto beside = root(unit);
   std::optional<Complex> pole;
   Complex residue = 0;
-  // Close to critical damping the residues of the two poles are large and cancel, and the contour holds the poles.
-  if (beside && 1 + beside->imag() > -0.1 * beside->real()) {
+  if (beside) {
     pole = kI + *beside;
     residue = -1.0 / (*pole * slope(unit, *beside));
   }

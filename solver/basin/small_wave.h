@@ -49,8 +49,8 @@ std::optional<Mode> slowest_mode(const SmallWave& wave);
 Mode nearly_inviscid_mode(const SmallWave& wave);
 
 /// a(t)/a(0) of a wave that starts from rest, at each time [s]: the mode by its residue, and the rest, whose
-/// singularities are on the negative real axis, by Talbot's contour with Weideman's constants. Exact to 1e-11 of a(0);
-/// overdamped waves lose digits as (nu k^2/w0)^2 grows.
+/// singularities are on the negative real axis, by Talbot's contour with Weideman's constants (Trefethen et al. 2006).
+/// Exact to 1e-11 of a(0) up to critical damping, to 1e-8 up to a hundred times that viscosity.
 std::vector<double> amplitude(const SmallWave& wave, std::span<const double> time);
 double amplitude(const SmallWave& wave, double time);
 

@@ -70,9 +70,9 @@ TEST(DecayFit, DoesNotDependOnTheUnits) {
   const Mode scaled = fitted(a.time, a.amplitude).value();
   EXPECT_NEAR(scaled.frequency / mode.frequency, 1e3, 1e-8);
   EXPECT_NEAR(scaled.decay_rate / mode.decay_rate, 1e3, 1e-6);
-  for (double& value : a.amplitude) value += 1e-3;  // a small wave on deep water
+  for (double& value : a.amplitude) value += 0.5;  // a small wave on deep water
   const Mode lifted = fitted(a.time, a.amplitude).value();
-  EXPECT_NEAR(lifted.decay_rate / mode.decay_rate, 1e3, 1e-6);
+  EXPECT_NEAR(lifted.decay_rate / mode.decay_rate, 1e3, 1e-4);
 }
 
 TEST(DecayFit, TooShortASeriesHasNone) {
