@@ -214,10 +214,15 @@ Domain domain_of(const BasinSpec& spec, const mesh::TriangleMesh& mesh, const fl
           top.height,
           tip,
           mesh::MeshMotion(mesh, moving, motion_of(spec.mesh.motion)),
-          section_flux(mesh, top.x),
+          under(mesh, top.x),
           std::move(wetted),
           std::move(of_pile),
           std::move(at_pile)};
+}
+
+bool is_iterated(const BasinSpec& spec) {
+  return spec.time.iterated && spec.surface &&
+         (spec.surface->scheme == SurfaceScheme::conservative || spec.surface->scheme == SurfaceScheme::upwinded);
 }
 
 void place(Basin& basin, double tip) {
@@ -241,7 +246,8 @@ void set_outside(Basin& basin) {
   for (std::size_t s = 0; s + 1 < top.vertex.size(); ++s) {
     if (top.gap == s) continue;
     basin.flow.open.push_back({top.vertex[s + 1], top.vertex[s], {weight(s + 1), weight(s)}});
-    if (top.tension > 0) basin.flow.film.push_back({top.vertex[s + 1], top.vertex[s], top.tension});
+    basin.flow.film.push_back({top.vertex[s + 1], top.vertex[s], top.tension, basin.spec.density * basin.spec.gravity,
+                               is_iterated(basin.spec)});
   }
 }
 
@@ -267,6 +273,7 @@ Basin filled(const BasinSpec& spec, base::InstructionSet instructions) {
   set_outside(basin);
   fluid::remember(basin.past, basin.flow, spec.time.step);
   basin.past_tip = {tip};
+  basin.past_flux = {std::vector<double>(basin.top.x.size(), 0)};
   basin.volume_at_start = volume_of(basin.flow.mesh);
   return basin;
 }

@@ -8,7 +8,7 @@
 
 #include "solver/base/instruction_set.h"
 #include "solver/basin/basin_spec.h"
-#include "solver/basin/section_flux.h"
+#include "solver/basin/surface_flux.h"
 #include "solver/fluid/advance.h"
 #include "solver/fluid/flow.h"
 #include "solver/fluid/free_surface.h"
@@ -24,7 +24,7 @@ struct Domain {
   std::vector<double> reference_height;  ///< of the surface then [m], (surface vertices)
   double reference_tip = 0;              ///< height of the tip's lowest point then [m]
   mesh::MeshMotion motion;               ///< from the reference places
-  SectionFlux flux;                      ///< of the conservative update
+  std::vector<Under> under;              ///< the surface above each vertex, (vertices)
   std::vector<std::int32_t> wetted;      ///< vertices on tip and sleeves
   std::vector<std::uint8_t> of_pile;     ///< 1 for them, (vertices)
   std::vector<std::int32_t> at_pile;     ///< triangles that touch them
@@ -47,6 +47,9 @@ struct Basin {
   Domain domain;
   fluid::Past past = {};
   std::vector<double> past_tip = {};  ///< heights of the tip at the levels of `past` [m]
+  /// Fluxes through the surface at the levels of `past`, newest first, of the conservative update without iteration
+  /// [m2/s].
+  std::vector<std::vector<double>> past_flux = {};
   fluid::FlowSolver solver = {};
   std::array<double, 2> pile_force{};  ///< of the water on the pile in the last step, without the hydrostatic one [N/m]
   double volume_at_start = 0;          ///< of the water [m2]
@@ -74,6 +77,9 @@ fluid::FreeSurface top_of(const BasinSpec& spec, const mesh::TriangleMesh& mesh)
 double tip_at(const BasinSpec& spec, double time);
 /// The tip's outline for a lowest point at height `tip`, right half, by rising x [m].
 std::vector<base::Vec2> tip_outline(const BasinPileSpec& pile, double tip);
+
+/// Whether surface and flow are found together in each step; explicit schemes of the surface have nothing to be found.
+bool is_iterated(const BasinSpec& spec);
 
 double time_of(const Basin& basin);
 

@@ -96,6 +96,7 @@ void remesh(Basin& basin) {
   basin.past = {};
   fluid::remember(basin.past, basin.flow, spec.time.step);
   basin.past_tip.resize(1);
+  basin.past_flux.resize(1);
   report.time = time_of(basin);
   report.after = mesh::summary_of(mesh::quality_of(basin.flow.mesh));
   basin.remeshes.push_back(report);

@@ -1,5 +1,6 @@
 #include "solver/basin/step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -46,16 +47,36 @@ class Way {
       if (basin_.flow.held[3 * v + kVelocityY]) basin_.flow.u(v, kVelocityY) = pile_velocity_;
   }
 
-  /// The surface by velocities that are extrapolated from the past, or by those of the flow.
+  /// The surface, by the velocities of the flow as it is, or by what the past says of the new time.
   void move_surface(bool by_flow) {
     if (!basin_.spec.surface) return;
-    std::vector<double> unknown = by_flow ? basin_.flow.unknown : basin_.past.level[0].unknown;
-    if (!by_flow && second_)
-      for (std::size_t i = 0; i < unknown.size(); ++i) unknown[i] = 2 * unknown[i] - basin_.past.level[1].unknown[i];
-    if (basin_.spec.surface->scheme == SurfaceScheme::conservative)
-      by_sections(unknown);
-    else
-      by_kinematics(velocities(unknown), by_flow);
+    fluid::FreeSurface& top = basin_.top;
+    if (by_flow) {
+      const std::vector<base::Vec2> now = velocities(basin_.flow.unknown);
+      top.height = fluid::advanced_height(top, levels_, dt_, lift(now), now);
+    } else if (conserves()) {
+      std::vector<double> flux = basin_.past_flux[0];
+      if (second_)
+        for (std::size_t s = 0; s < flux.size(); ++s) flux[s] = 2 * flux[s] - basin_.past_flux[1][s];
+      top.height = risen(top, balanced(std::move(flux)), rate(), before());
+    } else {
+      top.height = fluid::advanced_height(top, levels_, dt_, lift(levels_[0].interstitial));
+    }
+  }
+
+  /// Gives the surface what the equations of continuity are short of, when the flow is solved.
+  void settle_volume(const std::vector<double>& defect) {
+    if (!basin_.spec.surface || !conserves()) return;
+    fluid::FreeSurface& top = basin_.top;
+    std::vector<double> handed = handed_up(basin_.domain.under, defect, top.x.size());
+    for (double& value : handed) value = -value;
+    if (is_iterated(basin_.spec)) {
+      top.height = risen(top, handed, rate(), std::vector<double>(top.height));
+      place(basin_, tip_);
+    }
+    std::vector<double> flux = kinematic_flux(top, velocities(basin_.flow.unknown));
+    for (std::size_t s = 0; s < flux.size(); ++s) flux[s] += handed[s];
+    basin_.past_flux.insert(basin_.past_flux.begin(), std::move(flux));
   }
 
   /// False when there is no valid mesh for surface and pile.
@@ -86,26 +107,37 @@ class Way {
   }
 
  private:
-  void by_sections(const std::vector<double>& unknown) {
-    std::vector<double> flux = fluxes(basin_.domain.flux, basin_.flow.mesh, unknown);
-    if (const auto& gap = basin_.top.gap)
-      for (const std::size_t s : {*gap, *gap + 1}) flux[s] -= pile_velocity_ * basin_.spec.pile->radius;
-    std::vector<double> before = levels_[0].height;
+  bool conserves() const { return basin_.spec.surface->scheme == SurfaceScheme::conservative; }
+  double rate() const { return (second_ ? 1.5 : 1) / dt_; }
+
+  /// The heights that the scheme in time looks back to.
+  std::vector<double> before() const {
+    std::vector<double> height = levels_[0].height;
     if (second_)
-      for (std::size_t s = 0; s < before.size(); ++s) before[s] += (before[s] - levels_[1].height[s]) / 3;
-    basin_.top.height = risen(basin_.top, flux, (second_ ? 1.5 : 1) / dt_, before);
+      for (std::size_t s = 0; s < height.size(); ++s) height[s] += (height[s] - levels_[1].height[s]) / 3;
+    return height;
   }
 
-  void by_kinematics(const std::vector<base::Vec2>& velocity, bool by_flow) {
-    fluid::FreeSurface& top = basin_.top;
-    double lift = 0;
-    if (basin_.spec.surface->volume_correction) {
-      const double displaced = basin_.spec.pile ? -2 * basin_.spec.pile->radius * pile_velocity_ : 0;
-      lift = fluid::volume_correction(
-          top, top.scheme == fluid::KinematicScheme::upwinded ? velocity : levels_[0].interstitial, displaced);
+  /// Flux that the pile displaces [m2/s].
+  double displaced() const { return basin_.spec.pile ? -2 * basin_.spec.pile->radius * pile_velocity_ : 0; }
+
+  /// Fluxes whose sum is what the pile displaces: what extrapolation lacks of it is spread evenly.
+  std::vector<double> balanced(std::vector<double> flux) const {
+    const fluid::FreeSurface& top = basin_.top;
+    double sum = 0;
+    for (const double f : flux) sum += f;
+    const double lift = (displaced() - sum) / fluid::width_of(top);
+    for (std::size_t s = 0; s + 1 < flux.size(); ++s) {
+      if (top.gap == s) continue;
+      const double half = 0.5 * lift * (top.x[s + 1] - top.x[s]);
+      flux[s] += half;
+      flux[s + 1] += half;
     }
-    top.height = fluid::advanced_height(
-        top, levels_, dt_, lift, by_flow ? std::span<const base::Vec2>(velocity) : std::span<const base::Vec2>{});
+    return flux;
+  }
+
+  double lift(std::span<const base::Vec2> velocity) const {
+    return basin_.spec.surface->volume_correction ? fluid::volume_correction(basin_.top, velocity, displaced()) : 0;
   }
 
   Basin& basin_;
@@ -117,12 +149,6 @@ class Way {
   std::vector<base::Vec2> old_mesh_velocity_;
   std::string objection_;
 };
-
-/// Whether surface and flow are found together.
-bool is_iterated(const BasinSpec& spec) {
-  return spec.time.iterated && spec.surface &&
-         (spec.surface->scheme == SurfaceScheme::conservative || spec.surface->scheme == SurfaceScheme::upwinded);
-}
 
 }  // namespace
 
@@ -152,12 +178,14 @@ std::string step(Basin& basin, base::Profile& profile) {
   if (basin.spec.pile)
     basin.pile_force =
         fluid::force_on(flow, fluid::scheme_of(basin.past, basin.solver), basin.domain.at_pile, basin.domain.of_pile);
+  way.settle_volume(report.defect);
   ++basin.step;
   basin.last_iterations = report.iterations;
   basin.iterations += report.iterations;
   fluid::remember(basin.past, flow, basin.spec.time.step);
   basin.past_tip.insert(basin.past_tip.begin(), way.tip());
   basin.past_tip.resize(basin.past.level.size());
+  basin.past_flux.resize(std::min(basin.past_flux.size(), basin.past.level.size()));
   if (!needs_new_mesh(basin)) return {};
   const base::Stopwatch watch(profile, profile.index("remesh"));
   remesh(basin);

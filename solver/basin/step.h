@@ -1,7 +1,7 @@
 // One step of a basin in time.
 //
 //   1 pile      moves to its new place
-//   2 surface   moves with the water                                        section_flux.h, or fluid/free_surface.h
+//   2 surface   moves with the water                                        surface_flux.h, fluid/free_surface.h
 //   3 mesh      follows both, with one mesh velocity                        mesh/motion.h
 //   4 flow      is solved on the moved domain                               fluid/advance.h
 //   5 mesh      is made anew where its triangles have become bad, and the flow brought over     remesh.h

@@ -73,6 +73,8 @@ class Iteration {
       if (!std::isfinite(norm)) return report;
       if (report.residual <= solver_.tolerance) {
         report.converged = true;
+        report.defect.resize(residual_.size() / 3);
+        for (std::size_t v = 0; v < report.defect.size(); ++v) report.defect[v] = residual_[3 * v + kPressure];
         return report;
       }
       if (report.iterations == kMostIterations) return report;

@@ -14,8 +14,8 @@
 //   - when a step does not converge within kMostIterations: it begins again with a new one.
 //
 // Where the domain depends on the flow of the same step (a free surface), it is found by the same iteration: the domain is
-// made anew from the unknowns before each residual. A does not know of it; Anderson's acceleration makes up for that while
-// (omega dt)^2 of the fastest surface wave is small against 1.
+// made anew from the unknowns before each residual. Of that A knows what a level film's weight and tension do (without it
+// (omega dt)^2 of the fastest surface wave would have to stay below 1); Anderson's acceleration makes up for the rest.
 #pragma once
 
 #include <cstdint>
@@ -73,6 +73,8 @@ struct FlowReport {
   /// when |R| is no more than the rounding of the pressure's terms, |p| h: a fluid at rest has no other scale [-].
   double residual = 0;
   std::string reason;  ///< one sentence when not converged
+  /// What the equations of continuity are short of where the iteration ended, (vertices) [m2/s].
+  std::vector<double> defect;
 };
 
 /// Remembers the flow as it is as the newest level. Forgets what was before when dt changes.

@@ -32,7 +32,9 @@ struct SlipEdge {
 /// An edge of a film that pulls at its ends with gamma along itself; where films end at walls they stand at 90 degrees.
 struct FilmEdge {
   std::int32_t from = 0, to = 0;
-  double tension = 0;  ///< gamma [N/m]
+  double tension = 0;    ///< gamma [N/m]
+  double weight = 0;     ///< growth of the outside pressure with its height [Pa/m]
+  bool follows = false;  ///< whether its height is found with the flow of the same step
 };
 
 /// The fluid. What a vertex does not hold is solved for; edges that are in no list are free of traction.

@@ -2,6 +2,8 @@
 
 #include <umfpack.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <vector>
 
@@ -114,6 +116,17 @@ Eigen::SparseMatrix<double> jacobian(const Flow& flow, const TimeScheme& scheme)
       for (int column = 0; column < 4; ++column)
         add(3 * vertex[row / 2] + row % 2, 3 * vertex[column / 2] + column % 2,
             force[row / 2][row % 2].derivatives()[column]);
+  }
+
+  // A film that follows rises by u_y/rate, and with it weight and tension; as if it were level.
+  for (const FilmEdge& e : flow.film) {
+    if (!e.follows || !(scheme.rate > 0)) continue;
+    const std::int32_t vertex[] = {e.from, e.to};
+    const double dx = std::abs(flow.mesh.position[e.to].x - flow.mesh.position[e.from].x);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        add(3 * vertex[i] + kVelocityY, 3 * vertex[j] + kVelocityY,
+            (e.weight * dx * (i == j ? 1.0 / 3 : 1.0 / 6) + e.tension / dx * (i == j ? 1 : -1)) / scheme.rate);
   }
 
   for (int i = 0; i < size; ++i)

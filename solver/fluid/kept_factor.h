@@ -31,7 +31,8 @@ class KeptFactor {
 };
 
 /// The derivatives of all residuals by all unknowns at the flow's state (tau held fast), by automatic differentiation;
-/// rows and columns of what is held are those of the unit matrix.
+/// rows and columns of what is held are those of the unit matrix. Of films that follow
+/// the flow it has the stiffness that they have when they are level.
 Eigen::SparseMatrix<double> jacobian(const Flow& flow, const TimeScheme& scheme);
 
 }  // namespace seapile::fluid

@@ -37,9 +37,9 @@ double distance(base::Vec2 p, base::Vec2 a, base::Vec2 b) {
 }
 
 /// The size at p, made to fit the sides: away from a side edges grow by at most kGrowth of the way to it, and from a
-/// whole side they shrink by at most as much.
+/// whole side they shrink by at most as much. The axis is a side, so this holds where a tip is close to the bottom.
 double fitting(std::span<const Corner> corners, base::Vec2 p, double size) {
-  constexpr double kGrowth = 0.3;
+  constexpr double kGrowth = 0.15;
   double most = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const base::Vec2 a = corners[i].position, b = corners[(i + 1) % corners.size()].position;

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
+
+#include "solver/basin/decay_fit.h"
+#include "solver/basin/small_wave.h"
 
 namespace seapile::simulation {
 namespace {
@@ -58,6 +62,38 @@ void add_pile(std::vector<Metric>& metrics, const basin::Basin& basin, const Rec
                      "rise that the pile's stroke displaces"});
 }
 
+/// How the wave's oscillation compares with the exact one of a small wave.
+void add_wave(std::vector<Metric>& metrics, const basin::Basin& basin, const Records& records) {
+  const basin::BasinSpec& spec = basin.spec;
+  const auto& cosine = std::get<basin::CosineSurface>(spec.surface->initial);
+  const auto mode = basin::slowest_mode({.wavenumber = static_cast<double>(cosine.mode) * std::numbers::pi / spec.width,
+                                         .depth = spec.depth,
+                                         .gravity = spec.gravity,
+                                         .tension = spec.surface->tension,
+                                         .density = spec.density,
+                                         .viscosity = spec.viscosity,
+                                         .bottom = spec.bottom});
+  if (!mode) return;
+  metrics.push_back({"exact_frequency", mode->frequency, "rad/s", "frequency of the exact small wave"});
+  metrics.push_back({"exact_decay_rate", mode->decay_rate, "1/s", "decay rate of the exact small wave"});
+  const auto [begin, end] = basin::window_of(*mode);
+  std::vector<double> time, amplitude;
+  for (const FlowRecord& r : records)
+    if (r.time >= begin && r.time <= end) {
+      time.push_back(r.time);
+      amplitude.push_back(r.wave);
+    }
+  const auto found = basin::fitted(time, amplitude);
+  if (!found) return;
+  metrics.push_back({"frequency", found->frequency, "rad/s", "frequency of the wave, fitted"});
+  metrics.push_back({"decay_rate", found->decay_rate, "1/s", "decay rate of the wave, fitted"});
+  metrics.push_back(
+      {"frequency_error", found->frequency / mode->frequency - 1, "-", "frequency over the exact one, less 1"});
+  if (mode->decay_rate > 0)
+    metrics.push_back(
+        {"decay_error", found->decay_rate / mode->decay_rate - 1, "-", "decay rate over the exact one, less 1"});
+}
+
 }  // namespace
 
 std::vector<Metric> metrics_of(const basin::Basin& basin, const Records& records) {
@@ -78,6 +114,8 @@ std::vector<Metric> metrics_of(const basin::Basin& basin, const Records& records
     metrics.push_back({"largest_asymmetry", largest(records, [](const FlowRecord& r) { return r.asymmetry; }), "m",
                        "largest difference of heights that should be mirror images in a record"});
   }
+  if (basin.spec.surface && std::holds_alternative<basin::CosineSurface>(basin.spec.surface->initial))
+    add_wave(metrics, basin, records);
   if (basin.spec.pile) add_pile(metrics, basin, records);
   add_quality(metrics, basin, records);
   return metrics;

@@ -113,6 +113,8 @@ std::vector<Array> snapshot(const Basin& basin) {
     const std::vector<double> row = row_of(r);
     remeshes.insert(remeshes.end(), row.begin(), row.end());
   }
+  std::vector<double> flux;
+  for (const std::vector<double>& level : basin.past_flux) flux.insert(flux.end(), level.begin(), level.end());
   std::vector<Array> state{
       {{"basin/steps", "-", "steps, corrections, corrections of the last step", 1, Entity::run},
        std::vector<std::int64_t>{basin.step, basin.iterations, basin.last_iterations}},
@@ -125,6 +127,7 @@ std::vector<Array> snapshot(const Basin& basin) {
        std::vector<double>{basin.domain.reference_tip}},
       {{"flow/mesh_velocity", "m/s", "velocity of the mesh", 2, Entity::vertex}, flat(flow.mesh_velocity)},
       {{"surface/height", "m", "height", 1, Entity::surface}, basin.top.height},
+      {{"surface/past_flux", "m2/s", "fluxes through it, level after level", 1, Entity::run}, flux},
       {{"pile/past_tip", "m", "heights of the tip, newest first", 1, Entity::run}, basin.past_tip},
       {{"pile/force", "N/m", "of the water on the pile", 1, Entity::run},
        std::vector<double>{basin.pile_force[0], basin.pile_force[1]}}};

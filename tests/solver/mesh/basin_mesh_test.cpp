@@ -122,6 +122,25 @@ TEST(BasinMesh, HasTheShapeAskedForFromTheSurfaceToTheBottom) {
   std::printf("lowest shape quality %.3f\n", lowest);
 }
 
+// Where water is shallower than the size, edges are shorter than it.
+TEST(BasinMesh, HasTheShapeAskedForInNarrowGaps) {
+  for (const double gap : {0.015, 0.03, 0.06}) {
+    const TriangleMesh mesh = basin_mesh(outline(kLevel - gap, false), kEven);
+    EXPECT_GE(summary_of(quality_of(mesh)).lowest_shape, 0.7) << gap;
+  }
+  for (const double sleeve : {0.05, 0.08}) {
+    const TriangleMesh mesh = basin_mesh(outline(sleeve, false), kEven);
+    EXPECT_GE(summary_of(quality_of(mesh)).lowest_shape, 0.7) << sleeve;
+  }
+}
+
+TEST(BasinMesh, HasTheShapeAskedForWhereSizeAndSurfaceDiffer) {
+  for (const double size : {0.05, 0.18}) {
+    const TriangleMesh mesh = basin_mesh(outline(1.1, true, 0.03), [&](base::Vec2) { return size; });
+    EXPECT_GE(summary_of(quality_of(mesh)).lowest_shape, 0.7) << size;
+  }
+}
+
 TEST(BasinMesh, GrowsFromThePileAsTheSizeSays) {
   BasinOutline given = outline(1.3, false);
   const auto size = [](base::Vec2 p) {
