@@ -159,8 +159,9 @@ void ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manif
   Insertion run(sqlite, "run", 23);
   run(std::optional<std::int64_t>(), header.case_id, number, folder, manifest.seal, unless_empty(header.bed_run),
       std::string(name(result.outcome)), result.reason, result.time, result.depth, hex(result.state_hash),
-      whole(manifest.records + manifest.flow_records), whole(manifest.frames), made.version, made.commit, whole(made.dirty), made.host_cpu,
-      whole(made.threads), made.simd, made.cpu_seconds, made.wall_seconds, made.peak_memory_mb, whole(made.attempts));
+      whole(manifest.records + manifest.flow_records), whole(manifest.frames), made.version, made.commit,
+      whole(made.dirty), made.host_cpu, whole(made.threads), made.simd, made.cpu_seconds, made.wall_seconds,
+      made.peak_memory_mb, whole(made.attempts));
   put_details(sqlite, sqlite.getLastInsertRowid(), manifest);
 }
 

@@ -89,9 +89,9 @@ struct Manifest {
 
 /// What an interrupted run left behind.
 struct Resumable {
-  std::vector<simulation::Array> state;     ///< of the newest checkpoint that verifies
-  std::vector<simulation::Record> records;  ///< of the sealed segments up to that checkpoint
-  std::size_t frames = 0;                   ///< frames in those segments
+  std::vector<simulation::Array> state;              ///< of the newest checkpoint that verifies
+  std::vector<simulation::Record> records;           ///< of the sealed segments up to that checkpoint
+  std::size_t frames = 0;                            ///< frames in those segments
   std::vector<simulation::FlowRecord> flow_records;  ///< records of the water in those segments
   std::size_t flow_frames = 0;                       ///< frames of the water in those segments
 };
@@ -117,8 +117,8 @@ class RunWriter {
 
   /// Merges, seals and verifies every file, writes the manifest last, then removes segments and checkpoints (a diverged
   /// run keeps them). `bed`: for a bed's run, its grains, porosity profile and records (bed.h5 instead of series.h5;
-  /// records that were add()ed must be the same). A flow without records of any kind has no series.h5. A stopped run is not
-  /// finished: std::logic_error.
+  /// records that were add()ed must be the same). A flow without records of any kind has no series.h5. A stopped run is
+  /// not finished: std::logic_error.
   void finish(const simulation::RunResult& result, Provenance provenance, const simulation::Bed* bed);
 
  private:

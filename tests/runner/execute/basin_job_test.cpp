@@ -46,8 +46,8 @@ TEST_F(BasinJob, IsSealedWithItsPartsItsSeriesAndItsFrames) {
 }
 
 TEST_F(BasinJob, KilledAndContinuedItEndsInTheSameBits) {
-  expect_the_same_bits_when_killed(basin_study(
-      R"(, "viscosity": 0.01)", R"("record": {"interval": 0.01, "times": [0.05, 0.15, 0.25]},)"));
+  expect_the_same_bits_when_killed(
+      basin_study(R"(, "viscosity": 0.01)", R"("record": {"interval": 0.01, "times": [0.05, 0.15, 0.25]},)"));
 }
 
 TEST_F(BasinJob, WhatIsWrongIsToldAtOnceAndNothingIsWritten) {

@@ -37,9 +37,7 @@ TEST_F(FlowJob, AJetIsSealedWithItsPartsAndItsFrame) {
   EXPECT_THAT(place.run({"water.json"}).error, HasSubstr("nothing to run"));
 }
 
-TEST_F(FlowJob, KilledAndContinuedItEndsInTheSameBits) {
-  expect_the_same_bits_when_killed(jet_study(kInTime));
-}
+TEST_F(FlowJob, KilledAndContinuedItEndsInTheSameBits) { expect_the_same_bits_when_killed(jet_study(kInTime)); }
 
 TEST_F(FlowJob, ItsSwellRatioIsChecked) {
   const std::string checks =

@@ -28,8 +28,8 @@ struct WaterJob : testing::Test {
 
   bool has_checkpoint() const {
     std::error_code changing;
-    for (std::filesystem::recursive_directory_iterator entry(place.results(), changing), end;
-         entry != end && !changing; entry.increment(changing))
+    for (std::filesystem::recursive_directory_iterator entry(place.results(), changing), end; entry != end && !changing;
+         entry.increment(changing))
       if (entry->path().filename() == "a.h5") return true;
     return false;
   }
