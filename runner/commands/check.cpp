@@ -44,7 +44,7 @@ int check(const CheckArguments& arguments) {
   for (auto& drift : cases.with_accepted(study::read_accepted(study::accepted_path(study))))
     comparisons.push_back(std::move(drift));
   const bool for_people = arguments.format == present::Format::table;
-  const bool packings = std::ranges::any_of(study.cases, [](const study::Case& one) { return !one.scene.jet; });
+  const bool packings = std::ranges::any_of(study.cases, [](const study::Case& one) { return !is_water(one.scene); });
   fmt::print("{}", for_people ? present::check_text(comparisons)
                               : present::text(present::check_table(comparisons), arguments.format));
   fmt::print(for_people ? stdout : stderr, "{}{}", for_people ? "\n" : "",

@@ -79,21 +79,33 @@ std::vector<present::Comparison> CheckedCases::with_published() const {
   for (const study::Check& check : study_.checks) {
     const std::string in = unit(check);
     for (const study::Reference& reference : check.references) {
-      const study::UnitResult value = study::convert({reference.value, reference.unit}, in);
-      const study::UnitResult tolerance = study::convert({reference.tolerance, reference.unit}, in);
-      if (!value.problem.empty()) {
-        problems.push_back({check.pointer + (reference.place.empty() ? "/value" : "/reference"),
-                            fmt::format("{}{}{}", reference.place, reference.place.empty() ? "" : ": ", value.problem),
+      std::string misfit;
+      const auto in_unit = [&](double number) {
+        const study::UnitResult converted = study::convert({number, reference.unit}, in);
+        misfit = converted.problem;
+        return converted.value;
+      };
+      present::Comparison one;
+      const bool bounds = reference.at_least || reference.at_most;
+      if (bounds) {
+        one.against = present::Against::bounds;
+        if (reference.at_least) one.at_least = in_unit(*reference.at_least);
+        if (reference.at_most) one.at_most = in_unit(*reference.at_most);
+      } else {
+        one.reference = in_unit(reference.value);
+        one.tolerance = in_unit(reference.tolerance);
+      }
+      if (!misfit.empty()) {
+        const char* key = reference.at_most ? "/at_most" : reference.at_least ? "/at_least" : "/value";
+        problems.push_back({check.pointer + (reference.place.empty() ? key : "/reference"),
+                            fmt::format("{}{}{}", reference.place, reference.place.empty() ? "" : ": ", misfit),
                             fmt::format("a unit of {}, which is in {}", check.metric, in), ""});
         continue;
       }
       std::vector<present::Measured> cases;
       for (const std::size_t i : reference.cases) cases.push_back(measured(i, check.metric));
-      present::Comparison one;
       one.metric = check.metric;
       one.unit = in;
-      one.reference = value.value;
-      one.tolerance = tolerance.value;
       one.source = check.source;
       one.reason = reference.reason;
       for (auto& comparison : present::over_packings(one, cases)) comparisons.push_back(std::move(comparison));

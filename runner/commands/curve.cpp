@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -14,13 +15,66 @@ namespace seapile::commands {
 namespace {
 
 struct CurveArguments {
-  std::string study, root = "results", out;
-  std::vector<std::string> where;
+  std::string study, root = "results", out, against;
+  std::vector<std::string> where, of;
   bool bands = false;
 };
 
-void write(const std::vector<present::CurveSource>& sources, bool bands, std::FILE* out) {
-  bands ? present::write_bands(sources, out) : present::write_curves(sources, out);
+/// Runs with a series, all of the same.
+struct Found {
+  std::vector<present::CurveSource> sources;
+  present::Series series = present::Series::grains;
+  bool with_pile = false, without_pile = false;  ///< of basins
+};
+
+Found find(const CurveArguments& arguments, const std::string& study, const store::Catalogue& catalogue) {
+  Found drives, basins;
+  basins.series = present::Series::water;
+  for (const auto& [folder, labels] : usage_checked([&] { return catalogue.runs(study, arguments.where); })) {
+    const store::Manifest manifest = store::read_manifest(folder);
+    if (arguments.bands && manifest.result.outcome != simulation::Outcome::completed) continue;
+    const bool is_drive = manifest.header.kind == "drive", is_basin = manifest.flow_records > 0;
+    if (!is_drive && !is_basin) continue;
+    (is_drive ? drives : basins).sources.push_back({manifest.header.case_id, manifest.run, labels, folder});
+    const auto pile = std::ranges::find(manifest.header.parts, "pile", &simulation::Part::name);
+    const bool has_pile = pile != manifest.header.parts.end() && pile->built;
+    (has_pile ? basins.with_pile : basins.without_pile) |= is_basin;
+  }
+  if (drives.sources.empty()) return basins;
+  if (basins.sources.empty()) return drives;
+  throw UsageError("drives and basins have no columns in common: --where \"kind = drive\" or \"kind = flow\"");
+}
+
+/// The columns that are asked for. Without a word, of a drive all; of a basin the error of its volume, and the wave or
+/// the force on its pile, over time.
+std::vector<std::string> columns_of(const CurveArguments& arguments, const Found& found) {
+  const std::vector<std::string> known = present::column_names(found.series);
+  const bool is_basin = found.series == present::Series::water;
+  const bool all = arguments.of == std::vector<std::string>{"all"} || (!is_basin && arguments.of.empty());
+  std::vector<std::string> wanted = all ? known : arguments.of;
+  if (wanted.empty()) {
+    wanted = {"volume_error"};
+    if (found.without_pile) wanted.emplace_back("wave");
+    if (found.with_pile) wanted.emplace_back("pile_force_y");
+  }
+  std::vector<std::string> columns;
+  if (!arguments.against.empty()) {
+    columns = {arguments.against};
+  } else if (!all) {
+    columns = {is_basin ? "time" : "depth"};
+  }
+  for (const std::string& name : wanted) {
+    if (std::ranges::find(columns, name) == columns.end()) columns.push_back(name);
+  }
+  for (const std::string& name : columns) {
+    if (std::ranges::find(known, name) == known.end())
+      throw UsageError(fmt::format("there is no column \"{}\"; there are {}", name, fmt::join(known, ", ")));
+  }
+  return columns;
+}
+
+void write(const Found& found, const std::vector<std::string>& columns, bool bands, std::FILE* out) {
+  bands ? present::write_bands(found.sources, out) : present::write_curves(found.sources, found.series, columns, out);
 }
 
 int curve(const CurveArguments& arguments) {
@@ -29,24 +83,20 @@ int curve(const CurveArguments& arguments) {
   const std::string study = study_name(arguments.study);
   const auto catalogue = store::Catalogue::open_read_only(arguments.root);
   if (!is_known(study, catalogue)) return execute::kNothingMatched;
-  std::vector<present::CurveSource> sources;
-  for (const auto& [folder, labels] : usage_checked([&] { return catalogue.runs(study, arguments.where); })) {
-    const store::Manifest manifest = store::read_manifest(folder);
-    const bool completed = manifest.result.outcome == simulation::Outcome::completed;
-    if (manifest.header.kind == "drive" && (completed || !arguments.bands))
-      sources.push_back({manifest.header.case_id, manifest.run, labels, folder});
-  }
-  if (sources.empty()) {
+  const Found found = find(arguments, study, catalogue);
+  if (found.sources.empty()) {
     fmt::print(stderr, "nothing matched\n");
     return execute::kNothingMatched;
   }
+  if (arguments.bands && found.series != present::Series::grains) throw UsageError("--bands: basins have no packings");
+  const std::vector<std::string> columns = columns_of(arguments, found);
   if (arguments.out.empty()) {
-    write(sources, arguments.bands, stdout);
+    write(found, columns, arguments.bands, stdout);
     return execute::kDone;
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(arguments.out.c_str(), "w"), std::fclose);
   if (!file) throw UsageError(fmt::format("{} cannot be written: {}", arguments.out, std::strerror(errno)));
-  write(sources, arguments.bands, file.get());
+  write(found, columns, arguments.bands, file.get());
   return execute::kDone;
 }
 
@@ -57,6 +107,14 @@ void add_curve(CLI::App& app, Call& call) {
   CLI::App* command = app.add_subcommand("curve", "Write the series of runs as CSV: a row per record");
   command->add_option("STUDY", arguments.study, "Name or file of a study; default: every run");
   add_where_option(*command, arguments.where);
+  command
+      ->add_option("--of", arguments.of,
+                   "Columns to write; all: every one; default: of drives all, of basins volume_error and wave or "
+                   "pile_force_y")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  command->add_option("--against", arguments.against, "Column before those; default: of drives depth, of basins time")
+      ->type_name("NAME");
   command->add_option("--out", arguments.out, "File to write; default: standard output")->type_name("FILE");
   command->add_flag("--bands", arguments.bands,
                     "A row per case and 0.05 m of depth: n packings, mean tip resistance and its 95 % interval");
@@ -65,6 +123,7 @@ void add_curve(CLI::App& app, Call& call) {
       "Examples:\n"
       "  runner curve tip_shape --out curves.csv\n"
       "  runner curve density --bands --out bands.csv\n"
+      "  runner curve wave --of kinetic_energy,potential_energy --against time\n"
       "  runner curve velocity --where \"pile.driving.constant.speed < 0.3\" | head");
   command->callback([&call] { call = [] { return curve(arguments); }; });
 }

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "runner/commands/command.h"
+#include "runner/commands/window.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/flow_drawing.h"
 #include "runner/present/frame_drawing.h"
+#include "runner/present/quality_drawing.h"
 #include "runner/store/catalogue.h"
 #include "runner/study/study.h"
 
@@ -20,12 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr double kDepthTolerance = 1e-3;  ///< [m] between the depth that is asked for and that of a frame
 
-constexpr double kMostUneven = 30;  ///< of a window's edges; a whole jet is 20 times as long as high
+constexpr std::size_t kMostDrives = 2, kMostFlows = 6;  ///< panels
 
 struct FigureArguments {
   std::string kind;
-  std::string run, second;
+  std::vector<std::string> runs;
   std::optional<double> depth;
+  std::vector<double> times;
   std::string window, out, root = "results";
 };
 
@@ -35,35 +37,9 @@ const std::map<std::string, present::FigureKind> kDriveKinds = {{"bed", present:
                                                                 {"velocity", present::FigureKind::velocity}};
 const std::map<std::string, present::FlowFigureKind> kFlowKinds = {{"mesh", present::FlowFigureKind::mesh},
                                                                    {"velocity", present::FlowFigureKind::velocity}};
+const std::string kQuality = "quality";  ///< of a flow too
 
-/// A number, and nothing behind it.
-double number_in(const std::string& text) {
-  std::size_t read = 0;
-  try {
-    const double number = std::stod(text, &read);
-    return read == text.size() ? number : std::nan("");
-  } catch (const std::logic_error&) {
-    return std::nan("");
-  }
-}
-
-std::optional<present::View> view_of(const std::string& window) {
-  if (window.empty()) return std::nullopt;
-  std::vector<double> edges;
-  std::istringstream in(window);
-  for (std::string text; std::getline(in, text, ',');) edges.push_back(number_in(text));
-  const bool is_complete =
-      edges.size() == 4 && std::ranges::all_of(edges, [](double edge) { return std::isfinite(edge); });
-  if (!is_complete || edges[0] >= edges[1] || edges[2] >= edges[3]) {
-    throw UsageError("--window: x0,x1,y0,y1 in metres (of a flow: in H), with x0 < x1 and y0 < y1");
-  }
-  const present::View view{edges[0], edges[1], edges[2], edges[3]};
-  const double longer = std::max(view.width(), view.height()), shorter = std::min(view.width(), view.height());
-  if (longer > kMostUneven * shorter) {
-    throw UsageError(fmt::format("--window: one edge is more than {:g} times as long as the other", kMostUneven));
-  }
-  return view;
-}
+bool is_of_flows(const std::string& kind) { return kFlowKinds.contains(kind) || kind == kQuality; }
 
 /// The frame of a run that was asked for at a depth.
 std::size_t frame_at(double depth, const std::vector<double>& asked, const std::string& id) {
@@ -114,12 +90,14 @@ std::optional<Asked> find(const store::Catalogue& catalogue, const std::string& 
   return Asked{folder, std::move(manifest), id, title_of(catalogue, folder, id)};
 }
 
+bool is_flow(const Asked& run) { return run.manifest.header.kind == "flow"; }
+
 /// Throws UsageError when a run is not of a kind that has this figure.
 void check_kind(const Asked& run, const std::string& figure) {
   const std::string& kind = run.manifest.header.kind;
   if (kind == "bed") throw UsageError(fmt::format("{} is a bed: nothing is driven into it", run.id));
-  if (kind == "flow" && !kFlowKinds.contains(figure)) {
-    throw UsageError(fmt::format("{} is a flow: its figures are mesh and velocity", run.id));
+  if (is_flow(run) && !is_of_flows(figure)) {
+    throw UsageError(fmt::format("{} is a flow: its figures are mesh, velocity and quality", run.id));
   }
   if (kind == "drive" && !kDriveKinds.contains(figure)) {
     throw UsageError(fmt::format("{} is a drive: its figures are bed, forces, stress and velocity", run.id));
@@ -135,34 +113,73 @@ present::FrameOfRun load_drive(const Asked& run, const fs::path& root, std::opti
           store::read_frame(run.folder, frame_at(*depth, asked, run.id))};
 }
 
-/// A flow and its last frame.
-present::FlowOfRun load_flow(const Asked& run) {
-  const std::size_t frames = store::flow_frame_count(run.folder);
-  if (frames == 0) throw UsageError(fmt::format("{} has no frames", run.id));
-  return {run.title, study::scene_from_json(run.manifest.header.scene_json),
-          store::read_flow_frame(run.folder, frames - 1)};
+/// The frame of a basin that is nearest to each of the times; without a time its last one.
+std::vector<std::size_t> frames_at(const std::vector<double>& asked, const std::vector<double>& times,
+                                   const std::string& id) {
+  std::vector<std::size_t> frames;
+  for (const double time : asked) {
+    const auto distance = [&](double other) { return std::abs(other - time); };
+    const auto nearest = static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
+    if (std::ranges::find(frames, nearest) != frames.end()) {
+      throw UsageError(
+          fmt::format("--time: the frame of {} at {:g} s is the nearest one twice; its frames are at {:g} s", id,
+                      times[nearest], fmt::join(times, ", ")));
+    }
+    frames.push_back(nearest);
+  }
+  if (frames.empty()) frames.push_back(times.size() - 1);
+  return frames;
+}
+
+/// A flow in the frames that are asked for, each a panel.
+void load_flow(const Asked& run, const FigureArguments& arguments, std::vector<present::FlowOfRun>& panels) {
+  const std::vector<double> times = store::flow_frame_times(run.folder);
+  if (times.empty()) throw UsageError(fmt::format("{} has no frames", run.id));
+  const scene::SceneSpec scene = study::scene_from_json(run.manifest.header.scene_json);
+  if (scene.jet && !arguments.times.empty())
+    throw UsageError(fmt::format("--time: {} is a jet; its last frame is drawn", run.id));
+  if (arguments.depth) {
+    throw UsageError(fmt::format("--depth: {} is a flow; {}", run.id,
+                                 scene.jet ? "its last frame is drawn" : "its frames are chosen by --time"));
+  }
+  for (const std::size_t frame : frames_at(arguments.times, times, run.id))
+    panels.push_back({run.title, scene, store::read_flow_frame(run.folder, frame)});
+}
+
+std::string draw_drives(const FigureArguments& arguments, const std::vector<Asked>& asked,
+                        present::PictureFormat format, const std::optional<present::View>& view) {
+  if (!arguments.times.empty())
+    throw UsageError(fmt::format("--time: {} is a drive; its frames are chosen by --depth", asked[0].id));
+  std::vector<present::FrameOfRun> runs;
+  std::optional<double> depth = arguments.depth;
+  for (const Asked& run : asked) runs.push_back(load_drive(run, arguments.root, depth));
+  const auto kind = kDriveKinds.at(arguments.kind);
+  return present::picture_of(usage_checked([&] { return present::frame_figure(kind, runs, view); }), format);
+}
+
+std::string draw_flows(const FigureArguments& arguments, const std::vector<Asked>& asked, present::PictureFormat format,
+                       const std::optional<present::View>& view) {
+  std::vector<present::FlowOfRun> runs;
+  for (const Asked& run : asked) load_flow(run, arguments, runs);
+  if (runs.size() > kMostFlows) throw UsageError(fmt::format("{} panels; at most {}", runs.size(), kMostFlows));
+  if (arguments.kind != kQuality) {
+    const auto kind = kFlowKinds.at(arguments.kind);
+    return present::picture_of(usage_checked([&] { return present::flow_figure(kind, runs, view); }), format);
+  }
+  if (view) throw UsageError("--window: quality is of whole meshes");
+  return present::picture_of(present::quality_figure(runs), format);
 }
 
 /// The bytes of the picture.
 std::string draw(const FigureArguments& arguments, const std::vector<Asked>& asked, present::PictureFormat format,
                  const std::optional<present::View>& view) {
   for (const Asked& run : asked) check_kind(run, arguments.kind);
-  const auto is_flow = [](const Asked& run) { return run.manifest.header.kind == "flow"; };
-  if (std::ranges::none_of(asked, is_flow)) {
-    std::vector<present::FrameOfRun> runs;
-    std::optional<double> depth = arguments.depth;
-    for (const Asked& run : asked) runs.push_back(load_drive(run, arguments.root, depth));
-    const auto kind = kDriveKinds.at(arguments.kind);
-    return present::picture_of(usage_checked([&] { return present::frame_figure(kind, runs, view); }), format);
-  }
-  if (!std::ranges::all_of(asked, is_flow)) {
+  if (std::ranges::all_of(asked, is_flow)) return draw_flows(arguments, asked, format, view);
+  if (std::ranges::any_of(asked, is_flow)) {
     throw UsageError(fmt::format("{} and {}: a drive and a flow have no scale in common", asked[0].id, asked[1].id));
   }
-  if (arguments.depth) throw UsageError(fmt::format("--depth: {} is a flow; its last frame is drawn", asked[0].id));
-  std::vector<present::FlowOfRun> runs;
-  for (const Asked& run : asked) runs.push_back(load_flow(run));
-  const auto kind = kFlowKinds.at(arguments.kind);
-  return present::picture_of(usage_checked([&] { return present::flow_figure(kind, runs, view); }), format);
+  if (asked.size() > kMostDrives) throw UsageError(fmt::format("{} drives; at most {}", asked.size(), kMostDrives));
+  return draw_drives(arguments, asked, format, view);
 }
 
 int figure(const FigureArguments& arguments) {
@@ -172,10 +189,8 @@ int figure(const FigureArguments& arguments) {
   const auto view = view_of(arguments.window);
 
   const auto catalogue = store::Catalogue::open_read_only(arguments.root);
-  std::vector<std::string> prefixes = {arguments.run};
-  if (!arguments.second.empty()) prefixes.push_back(arguments.second);
   std::vector<Asked> asked;
-  for (const std::string& prefix : prefixes) {
+  for (const std::string& prefix : arguments.runs) {
     std::optional<Asked> run = find(catalogue, prefix);
     if (!run) {
       fmt::print(stderr, "no case has an id that begins with {}\n", prefix);
@@ -197,21 +212,29 @@ int figure(const FigureArguments& arguments) {
 
 void add_figure(CLI::App& app, Call& call) {
   static FigureArguments arguments;
-  CLI::App* command = app.add_subcommand("figure", "Draw a frame of a drive or of a flow, or of two together");
+  CLI::App* command = app.add_subcommand("figure", "Draw frames of drives or of flows, on scales in common");
   command
-      ->add_option("KIND", arguments.kind, "Of a drive: bed, forces, stress or velocity; of a flow: mesh or velocity")
+      ->add_option("KIND", arguments.kind,
+                   "Of a drive: bed, forces, stress or velocity; of a flow: mesh, velocity or quality")
       ->required()
       ->type_name("")
       ->check([](const std::string& word) {
-        return kDriveKinds.contains(word) || kFlowKinds.contains(word)
+        return kDriveKinds.contains(word) || is_of_flows(word)
                    ? std::string()
-                   : "there is no figure \"" + word + "\"; there are bed, forces, stress, velocity and mesh";
+                   : "there is no figure \"" + word + "\"; there are bed, forces, stress, velocity, mesh and quality";
       });
-  command->add_option("RUN", arguments.run, "Case id, or how it begins")->required()->type_name("");
-  command->add_option("RUN2", arguments.second, "Another one of its kind, drawn beside or below it on the same scales")
+  command->add_option("RUN", arguments.runs, "Case ids, or how they begin: one or two drives, or some flows")
+      ->required()
       ->type_name("");
   command->add_option("--depth", arguments.depth, "Depth d of the tip [m]; default: the last frame of the first run");
-  command->add_option("--window", arguments.window, "What is seen [m]; of a flow [H]; default: see below")
+  command
+      ->add_option(
+          "--time", arguments.times,
+          "Of a basin: the frame nearest to this time [s]; several times are several panels; default: the last")
+      ->type_name("T,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--window", arguments.window, "What is seen [m]; of a jet [H]; default: see below")
       ->type_name("X0,X1,Y0,Y1");
   command->add_option("-o,--out", arguments.out, "Picture to write, .svg or .png; default: KIND.svg")
       ->type_name("FILE");
@@ -226,17 +249,22 @@ void add_figure(CLI::App& app, Call& call) {
       "x is 0 in the middle of the box, y is 0 at its base. A frame has to have been asked for within 1 mm of "
       "--depth.\n"
       "\n"
-      "Kinds, of a flow, always in its last frame:\n"
+      "Kinds, of a flow:\n"
       "  mesh      the triangles' edges, the free surface and the rest of the boundary\n"
       "  velocity  colours of the speed, linear in each triangle, and arrows on a regular grid\n"
-      "Without --window, they show from 2 H before the lip to 4 H behind it, H being the die's radius or half gap.\n"
-      "x is 0 at the lip, y is 0 on the axis.\n"
+      "  quality   histograms of the triangles' shapes and smallest angles, a column per mesh\n"
+      "Without --window, a basin is seen as a whole, x being 0 in its middle and y at its bottom; a jet, always in "
+      "its\n"
+      "last frame, from 2 H before the lip to 4 H behind it, H being the die's radius or half gap, x being 0 at the\n"
+      "lip and y on the axis.\n"
       "\n"
       "Examples:\n"
       "  runner figure forces 1a2b3c4d5e --depth 0.6 -o forces.svg\n"
       "  runner figure stress 1a2b3c4d5e 6f7a8b9c0d --depth 0.6 -o stress.png\n"
       "  runner figure bed 1a2b3c4d5e --window -1,1,0,2.2\n"
       "  runner figure mesh 9c4cddb476 --window -0.2,0.4,0.7,1.1 -o mesh.svg\n"
+      "  runner figure mesh 5d0e62b1c7 --time 0,2.5,5\n"
+      "  runner figure quality 5d0e62b1c7 83aa91f20e --time 5\n"
       "  runner figure velocity 9c4cddb476 212fdcfbb0 -o velocity.png");
   command->callback([&call] { call = [] { return figure(arguments); }; });
 }

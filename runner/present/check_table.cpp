@@ -87,6 +87,42 @@ std::vector<std::string> sources_of(const std::vector<Comparison>& comparisons) 
   return sources;
 }
 
+Cell number(const std::optional<double>& value) { return value ? number(*value) : Cell{}; }
+
+const char* name_of(Against against) {
+  return against == Against::published ? "published" : against == Against::bounds ? "bounds" : "accepted";
+}
+
+void align_all_right(Table& table, std::initializer_list<const char*> names) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (std::ranges::find(names, table.columns[i]) != names.end()) align_right(table, i);
+  }
+}
+
+/// Values within bounds that a study sets itself, for people: in the metric's own unit and in six digits, as a bound is
+/// often many times larger than what it bounds.
+std::string bounds_text(const std::vector<Comparison>& comparisons) {
+  Table table = with_labels(comparisons, {"metric", "case"}, {"n", "value", "unit", "at least", "at most", "verdict"});
+  const auto digits = [](const std::optional<double>& value) {
+    return value && !std::isnan(*value) ? fmt::format("{:.6g}", *value) : std::string("-");
+  };
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    const Comparison& comparison = comparisons[i];
+    const Judgement judgement = judge(comparison);
+    const double half = (judgement.mean.high - judgement.mean.low) / 2;
+    std::vector<Cell> row = {comparison.metric, case_cell(comparison)};
+    row.insert(row.end(), table.rows[i].begin(), table.rows[i].end());
+    for (const std::string& text :
+         {count_text(comparison),
+          digits(judgement.mean.mean) + (std::isnan(half) ? "" : fmt::format(" ± {:.2g}", half)), comparison.unit,
+          digits(comparison.at_least), digits(comparison.at_most), words(judgement.finding)})
+      row.emplace_back(text);
+    table.rows[i] = std::move(row);
+  }
+  align_all_right(table, {"n", "value", "at least", "at most"});
+  return text(table, Format::table);
+}
+
 /// The comparisons of one kind as a table for people. Of drift every row is one run, and what it was accepted of is
 /// told where it failed.
 std::string table_text(const std::vector<Comparison>& comparisons, Against against) {
@@ -115,11 +151,7 @@ std::string table_text(const std::vector<Comparison>& comparisons, Against again
     if (published) row.emplace_back(static_cast<double>(source));
     table.rows[i] = std::move(row);
   }
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    for (const char* name : {"n", "value", "reference", "accepted", "difference", "tolerance"}) {
-      if (table.columns[i] == name) align_right(table, i);
-    }
-  }
+  align_all_right(table, {"n", "value", "reference", "accepted", "difference", "tolerance"});
   return text(table, Format::table);
 }
 
@@ -135,6 +167,13 @@ std::string failure(const Comparison& comparison, const Judgement& judgement) {
   const Shown shown(comparison, judgement);
   std::string line = "FAILED  " + comparison.metric;
   for (const auto& [path, value] : comparison.labels) line += fmt::format(", {}={}", path, value);
+  if (comparison.against == Against::bounds) {
+    if (std::isnan(judgement.mean.mean)) return line + ": is no number";
+    const bool above = judgement.difference > 0;
+    const std::string unit = comparison.unit == "-" || comparison.unit.empty() ? "" : " " + comparison.unit;
+    return line + fmt::format(": {:.6g}{}, {} {:.6g}{}", judgement.mean.mean, unit, above ? "at most" : "at least",
+                              (above ? comparison.at_most : comparison.at_least).value_or(std::nan("")), unit);
+  }
   line += fmt::format(": {} {} away, tolerance {} {}", shown(std::abs(judgement.difference)), shown.unit(),
                       shown(comparison.tolerance), shown.unit());
   line += comparison.against == Against::published ? "" : fmt::format("; accepted of {}", comparison.source);
@@ -144,15 +183,14 @@ std::string failure(const Comparison& comparison, const Judgement& judgement) {
 }  // namespace
 
 Table check_table(const std::vector<Comparison>& comparisons) {
-  Table table = with_labels(
-      comparisons, {"against", "metric", "case"},
-      {"n", "value", "low", "high", "unit", "reference", "difference", "tolerance", "verdict", "source", "reason"});
+  Table table = with_labels(comparisons, {"against", "metric", "case"},
+                            {"n", "value", "low", "high", "unit", "reference", "difference", "tolerance", "at_least",
+                             "at_most", "verdict", "source", "reason"});
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     const Comparison& comparison = comparisons[i];
     const Judgement judgement = judge(comparison);
     const bool known = comparison.reference.has_value();
-    std::vector<Cell> row = {comparison.against == Against::published ? "published" : "accepted", comparison.metric,
-                             case_cell(comparison)};
+    std::vector<Cell> row = {name_of(comparison.against), comparison.metric, case_cell(comparison)};
     row.insert(row.end(), table.rows[i].begin(), table.rows[i].end());
     row.emplace_back(static_cast<double>(comparison.values.size()));
     for (const double value : {judgement.mean.mean, judgement.mean.low, judgement.mean.high})
@@ -161,6 +199,8 @@ Table check_table(const std::vector<Comparison>& comparisons) {
     row.push_back(known ? Cell{*comparison.reference} : Cell{});
     row.push_back(number(judgement.difference));
     row.push_back(known ? Cell{comparison.tolerance} : Cell{});
+    row.push_back(number(comparison.at_least));
+    row.push_back(number(comparison.at_most));
     row.emplace_back(words(judgement.finding));
     for (const std::string& text : {comparison.source, comparison.reason}) row.push_back(text.empty() ? Cell{} : text);
     table.rows[i] = std::move(row);
@@ -176,6 +216,8 @@ std::string check_text(const std::vector<Comparison>& comparisons) {
     const auto sources = sources_of(published);
     for (std::size_t i = 0; i < sources.size(); ++i) all += fmt::format("source {}: {}\n", i + 1, sources[i]);
   }
+  const auto bounds = of_kind(comparisons, Against::bounds);
+  if (!bounds.empty()) all += fmt::format("{}bounds\n\n{}", all.empty() ? "" : "\n", bounds_text(bounds));
   if (!accepted.empty()) all += fmt::format("\ndrift\n\n{}", table_text(accepted, Against::accepted));
   return all;
 }

@@ -1,4 +1,4 @@
-// Comparisons as tables: for people one of published values and one of drift, for programs one of both.
+// Comparisons as tables: for people one of published values, one of bounds and one of drift, for programs one of all.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace seapile::present {
 
-/// Every comparison in a row. Columns: "against" ("published" or "accepted"), "metric", "case" (of one packing), the
-/// labels, "n", "value", "low", "high", "unit", "reference", "difference", "tolerance", "verdict", "source", "reason";
-/// numbers in the row's own unit.
+/// Every comparison in a row. Columns: "against" ("published", "bounds" or "accepted"), "metric", "case" (of one
+/// packing), the labels, "n", "value", "low", "high", "unit", "reference", "difference", "tolerance", "at_least",
+/// "at_most", "verdict", "source", "reason"; numbers in the row's own unit.
 store::Table check_table(const std::vector<Comparison>& comparisons);
 
-/// The tables for people, digits as the tolerances ask, and below the first the sources.
+/// The tables for people, digits as the tolerances ask, and below the first the sources of published values.
 std::string check_text(const std::vector<Comparison>& comparisons);
 
 /// What there is to say beside the tables, in whole lines: each failure, and how far the numbers carry.

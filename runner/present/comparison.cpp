@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace seapile::present {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 std::string words(Finding finding) {
   switch (finding) {
@@ -22,7 +27,29 @@ std::string words(Finding finding) {
   return "";
 }
 
+namespace {
+
+bool is_complete(const Comparison& comparison) {
+  return !comparison.values.empty() && comparison.values.size() == comparison.case_ids.size();
+}
+
+Judgement judge_bounds(const Comparison& comparison) {
+  Judgement judgement;
+  judgement.mean = mean_interval(comparison.values);
+  const double mean = judgement.mean.mean;
+  judgement.difference = comparison.at_least && mean < *comparison.at_least ? mean - *comparison.at_least
+                         : comparison.at_most && mean > *comparison.at_most ? mean - *comparison.at_most
+                                                                            : std::numeric_limits<double>::quiet_NaN();
+  const bool within =
+      mean >= comparison.at_least.value_or(-kInfinity) && mean <= comparison.at_most.value_or(kInfinity);
+  judgement.finding = !is_complete(comparison) ? Finding::missing : within ? Finding::ok : Finding::failed;
+  return judgement;
+}
+
+}  // namespace
+
 Judgement judge(const Comparison& comparison) {
+  if (comparison.against == Against::bounds) return judge_bounds(comparison);
   Judgement judgement;
   judgement.mean = mean_interval(comparison.values);
   judgement.difference =
@@ -30,13 +57,12 @@ Judgement judge(const Comparison& comparison) {
   // Without an interval: NaN, which is neither beyond nor wider than anything.
   const double half = (judgement.mean.high - judgement.mean.low) / 2;
   const double away = std::abs(judgement.difference), tolerance = comparison.tolerance;
-  const bool complete = !comparison.values.empty() && comparison.values.size() == comparison.case_ids.size();
-  judgement.finding = !comparison.reference     ? Finding::not_accepted
-                      : !complete               ? Finding::missing
-                      : away - half > tolerance ? Finding::failed
-                      : half > tolerance        ? Finding::underpowered
-                      : away <= tolerance       ? Finding::ok
-                                                : Finding::failed;
+  judgement.finding = !comparison.reference      ? Finding::not_accepted
+                      : !is_complete(comparison) ? Finding::missing
+                      : away - half > tolerance  ? Finding::failed
+                      : half > tolerance         ? Finding::underpowered
+                      : away <= tolerance        ? Finding::ok
+                                                 : Finding::failed;
   return judgement;
 }
 

@@ -1,4 +1,4 @@
-// One number of a study beside the value that it is compared with: a published one, or our own that was accepted.
+// One number of a study beside what it is compared with: a published value, bounds, or our own value that was accepted.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,24 @@
 
 namespace seapile::present {
 
-enum class Against { published, accepted };
+enum class Against { published, bounds, accepted };
 
 struct Comparison {
   Against against = Against::published;
   std::string metric, unit;
-  std::vector<std::string> case_ids;  ///< several: packings of the same case
-  Labels labels;                      ///< the seed apart where there are several
-  std::vector<double> values;         ///< of the cases that are finished
-  std::optional<double> reference;    ///< absent: nothing was accepted yet
-  double tolerance = 0;               ///< in the metric's unit
-  std::string source;                 ///< where the reference is from
-  std::string reason;                 ///< why the tolerance is right, or the accepted value
+  std::vector<std::string> case_ids;                  ///< several: packings of the same case
+  Labels labels;                                      ///< the seed apart where there are several
+  std::vector<double> values;                         ///< of the cases that are finished
+  std::optional<double> reference;                    ///< absent: nothing was accepted yet, or there are bounds instead
+  double tolerance = 0;                               ///< in the metric's unit
+  std::string source;                                 ///< where the reference is from
+  std::string reason;                                 ///< why the tolerance is right, or the accepted value
+  std::optional<double> at_least = {}, at_most = {};  ///< bounds
 };
 
 enum class Finding {
   ok,
-  failed,        ///< the mean is further away than the tolerance
+  failed,        ///< the mean is further away than the tolerance, or beyond a bound
   missing,       ///< a case has no completed result
   underpowered,  ///< the packings say less than the tolerance asks
   not_accepted,  ///< no failure
@@ -40,12 +41,12 @@ std::string words(Finding finding);
 struct Judgement {
   Finding finding = Finding::missing;
   Interval mean;          ///< over the finished packings
-  double difference = 0;  ///< mean less reference; NaN where one of them is absent
+  double difference = 0;  ///< mean less reference, or less the bound that it is beyond; NaN where one of them is absent
 };
 
 /// The first that holds: not accepted yet, missing, FAILED where the whole interval is beyond the tolerance,
 /// underpowered where half of it is wider than the tolerance, FAILED where the mean is beyond the tolerance, ok. One
-/// packing has no interval, and its value decides.
+/// packing has no interval, and its value decides. Of bounds the mean decides, and what lies on one is within.
 Judgement judge(const Comparison& comparison);
 
 /// A case's number as the store has it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 #include "runner/present/figure.h"
 #include "runner/present/replicates.h"
@@ -26,9 +27,48 @@ void write(std::FILE* out, const std::string& text) {
   }
 }
 
+/// What is said of a column.
+struct Column {
+  std::string name, unit;
+};
+
+template <class R>
+std::vector<Column> all_columns() {
+  std::vector<Column> list;
+  const R any;
+  columns([&](const char* name, const char* unit, const char*, double) { list.push_back({name, unit}); }, any);
+  return list;
+}
+
+std::vector<Column> all_columns(Series series) {
+  return series == Series::grains ? all_columns<simulation::Record>() : all_columns<simulation::FlowRecord>();
+}
+
+/// A line of CSV per record, each behind the same prefix.
+template <class R>
+std::string lines_of(const std::vector<R>& records, const std::vector<std::size_t>& places, const std::string& prefix) {
+  std::string lines;
+  std::vector<double> row;
+  for (const R& record : records) {
+    row.clear();
+    columns([&](const char*, const char*, const char*, double value) { row.push_back(value); }, record);
+    lines += prefix;
+    for (const std::size_t place : places) lines += fmt::format(",{}", row[place]);
+    lines += "\n";
+  }
+  return lines;
+}
+
 }  // namespace
 
-void write_curves(const std::vector<CurveSource>& sources, std::FILE* out) {
+std::vector<std::string> column_names(Series series) {
+  std::vector<std::string> names;
+  for (const Column& column : all_columns(series)) names.push_back(column.name);
+  return names;
+}
+
+void write_curves(const std::vector<CurveSource>& sources, Series series, const std::vector<std::string>& columns,
+                  std::FILE* out) {
   std::vector<Labels> labels;
   for (const CurveSource& source : sources) labels.push_back(source.labels);
   const store::Table parameters = label_table(labels);
@@ -37,22 +77,22 @@ void write_curves(const std::vector<CurveSource>& sources, std::FILE* out) {
   for (std::size_t i = 0; i < parameters.columns.size(); ++i) {
     header += "," + csv_heading(parameters.columns[i], parameters.units[i]);
   }
-  simulation::Record any;
-  simulation::columns(
-      [&](const char* name, const char* unit, const char*, double&) { header += "," + csv_heading(name, unit); }, any);
+  const std::vector<Column> known = all_columns(series);
+  std::vector<std::size_t> places;
+  for (const std::string& name : columns) {
+    const auto found = std::ranges::find(known, name, &Column::name);
+    if (found == known.end()) throw std::logic_error("a series has no column " + name);
+    places.push_back(static_cast<std::size_t>(found - known.begin()));
+    header += "," + csv_heading(found->name, found->unit);
+  }
   write(out, header + "\n");
 
   for (std::size_t k = 0; k < sources.size(); ++k) {
     std::string prefix = sources[k].case_id.substr(0, 10) + "," + sources[k].run;
     for (const store::Cell& cell : parameters.rows[k]) prefix += "," + cell_text(cell);
-    std::string lines;
-    for (const simulation::Record& record : store::read_series(sources[k].run_folder)) {
-      lines += prefix;
-      simulation::columns(
-          [&](const char*, const char*, const char*, double value) { lines += fmt::format(",{}", value); }, record);
-      lines += "\n";
-    }
-    write(out, lines);
+    const auto& folder = sources[k].run_folder;
+    write(out, series == Series::grains ? lines_of(store::read_series(folder), places, prefix)
+                                        : lines_of(store::read_flow_series(folder), places, prefix));
   }
   if (std::fflush(out) != 0) write(out, "");
 }

@@ -8,7 +8,6 @@
 
 #include "runner/present/statistics.h"
 #include "runner/present/table.h"
-#include "solver/simulation/record.h"
 
 namespace seapile::present {
 
@@ -19,9 +18,17 @@ struct CurveSource {
   std::filesystem::path run_folder;
 };
 
-/// Writes CSV: "case", "run", the labels, then every column of the record, units in the header. One run is in memory at
-/// a time. Throws store::StoreError when a series cannot be read or the file not be written.
-void write_curves(const std::vector<CurveSource>& sources, std::FILE* out);
+/// Which series of a run: that of the grains, or that of the water.
+enum class Series { grains, water };
+
+/// The names of a series' columns, in their order.
+std::vector<std::string> column_names(Series series);
+
+/// Writes CSV: "case", "run", the labels, then the columns of the records in the order in which they are named, units
+/// in the header. One run is in memory at a time. Throws store::StoreError when a series cannot be read or the file not
+/// be written.
+void write_curves(const std::vector<CurveSource>& sources, Series series, const std::vector<std::string>& columns,
+                  std::FILE* out);
 
 /// Writes CSV: a row per case, the seed apart, and bin of depth (kBinWidth) that all its packings have. Columns: the
 /// labels, "depth[m]" (the middle of the bin), "n", "mean[Pa]", "low[Pa]", "high[Pa]": tip resistance and the interval

@@ -20,7 +20,20 @@ constexpr double kLeastLegend = kLegendNames + kShortestBar + 14;
 constexpr double kLeastWidth = 520;  ///< room for the heading and its key
 constexpr double kSample = 22, kRemarkSize = 10.5;
 
-const AxisNames kNames = {"x [H]", "distance from the axis y [H]", "y [H]"};
+/// What a figure of jets or of basins says of its lengths and speeds.
+struct Words {
+  AxisNames axes;
+  const char *length, *speed, *scales, *speeds;
+};
+const Words kOfJets = {{"x [H]", "distance from the axis y [H]", "y [H]"},
+                       "H",
+                       "[U]",
+                       "H: the die's radius or half gap; x is 0 at its lip.",
+                       " U: the mean velocity in the die."};
+const Words kOfBasins = {
+    {"x [m]", "height above the bottom y [m]", "y [m]"}, "m", "[m/s]", "x is 0 in the middle of the basin.", ""};
+
+const Words& words_of(const FlowFigure& figure) { return figure.basins ? kOfBasins : kOfJets; }
 
 const char* heading(FlowFigureKind kind) {
   return kind == FlowFigureKind::mesh ? "Mesh of the fluid" : "Velocity of the fluid";
@@ -28,18 +41,18 @@ const char* heading(FlowFigureKind kind) {
 
 /// What is said below the panels, line by line.
 std::vector<std::string> remarks(const FlowFigure& figure) {
-  const std::string scales = "H: the die's radius or half gap; x is 0 at its lip.";
+  const Words& words = words_of(figure);
   if (figure.kind == FlowFigureKind::mesh) {
     std::vector<std::string> sizes;
     for (const FlowPanel& panel : figure.panels) {
       sizes.push_back(fmt::format("{} vertices and {} triangles", panel.vertices, panel.triangles));
     }
     if (std::ranges::count(sizes, sizes.front()) == std::ssize(sizes)) sizes.resize(1);
-    return {fmt::format("The whole mesh has {}. {}", fmt::join(sizes, "; "), scales)};
+    return {fmt::format("The whole mesh has {}. {}", fmt::join(sizes, "; "), words.scales)};
   }
-  return {fmt::format("Colour: speed, linear in each triangle. Arrows: velocity at their middles, {:g} H apart.",
-                      figure.spacing),
-          scales + " U: the mean velocity in the die."};
+  return {fmt::format("Colour: speed, linear in each triangle. Arrows: velocity at their middles, {:g} {} apart.",
+                      figure.spacing, words.length),
+          std::string(words.scales) + words.speeds};
 }
 
 /// What the lines are, from the right end of the heading leftwards.
@@ -61,6 +74,7 @@ void draw_panel(cairo_t* context, const FlowFigure& figure, const FlowPanel& pan
   cairo_rectangle(context, map.left, map.top, map.right() - map.left, map.bottom() - map.top);
   cairo_clip(context);
   draw_die(context, map, panel.die);
+  if (!panel.pile.empty()) draw_pile(context, map, panel.pile);
   draw_speeds(context, map, panel.faces, figure.full);
   draw_edges(context, map, panel.edges, EdgeLook::inner);
   draw_edges(context, map, panel.boundary, EdgeLook::boundary);
@@ -98,13 +112,13 @@ std::string picture_of(const FlowFigure& figure, PictureFormat format) {
   for (const FlowPanel& panel : figure.panels) {
     const Mapping map{panel.view, left, top, scale};
     draw_panel(context, figure, panel, map);
-    draw_axes(context, map, steps, kNames, numbers + 5);
+    draw_axes(context, map, steps, words_of(figure).axes, numbers + 5);
     write_within(context, left, top - 7, width - kSide - left, panel.title, {12, Align::left, true});
     description += fmt::format(" {}.", panel.title);
     if (has_legend) {
       const double x = map.right() + kGap;
       write(context, x, top + 9, "speed", {11});
-      write(context, x, top + 23, "[U]", {11});
+      write(context, x, top + 23, words_of(figure).speed, {11});
       draw_bar(context, x, top + kLegendNames, std::clamp(tallest * scale - kLegendNames, kShortestBar, kTallestBar),
                figure.full, false);
     }

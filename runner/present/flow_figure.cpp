@@ -10,8 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "runner/present/arrays.h"
 #include "runner/present/axis.h"
+#include "runner/present/flow_mesh.h"
+#include "runner/present/pile_outline.h"
 
 namespace seapile::present {
 namespace {
@@ -19,29 +20,10 @@ namespace {
 using base::Vec2;
 
 constexpr double kBeforeLip = 2, kBehindLip = 4;  ///< [H]
-constexpr double kMargin = 0.1;                   ///< around the fluid [H]
+constexpr double kMargin = 0.1;                   ///< around a jet [H]
+constexpr double kShareAround = 0.03;             ///< around a basin, of its larger edge
 constexpr int kMostArrows = 32;                   ///< along the larger edge of the view
 constexpr double kLongestArrow = 0.9;             ///< in spacings of the grid
-
-/// A frame's mesh, with its arrays found and its rows checked once.
-struct Mesh {
-  explicit Mesh(const simulation::FlowFrame& frame)
-      : positions(values<double>(frame.vertices, "vertices/position")),
-        corners(values<std::int64_t>(frame.triangles, "triangles/corner")) {
-    const auto count = static_cast<std::int64_t>(vertices());
-    if (std::ranges::any_of(corners, [&](std::int64_t row) { return row < 0 || row >= count; })) {
-      throw store::StoreError(store::StoreError::Kind::damaged,
-                              "a triangle of the frame has a corner that is no vertex");
-    }
-  }
-  std::size_t vertices() const { return positions.size() / 2; }
-  std::size_t triangles() const { return corners.size() / 3; }
-  Vec2 at(std::int64_t row) const { return vec2(positions, static_cast<std::size_t>(row)); }
-  std::span<const std::int64_t> triangle(std::size_t t) const { return std::span(corners).subspan(3 * t, 3); }
-
-  const std::vector<double>& positions;
-  const std::vector<std::int64_t>& corners;
-};
 
 View around(std::span<const Vec2> points) {
   View box{points[0].x, points[0].x, points[0].y, points[0].y};
@@ -63,7 +45,7 @@ bool sees(const View& view, Vec2 p) {
   return p.x >= view.left && p.x <= view.right && p.y >= view.bottom && p.y <= view.top;
 }
 
-View box_of(const Mesh& mesh) {
+View box_of(const FlowMesh& mesh) {
   std::vector<Vec2> points;
   for (std::size_t v = 0; v < mesh.vertices(); ++v) points.push_back(mesh.at(static_cast<std::int64_t>(v)));
   if (points.empty()) throw store::StoreError(store::StoreError::Kind::damaged, "the frame has no vertices");
@@ -75,7 +57,7 @@ using Ends = std::pair<std::int64_t, std::int64_t>;  ///< rows of an edge's vert
 Ends ends(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Every edge once, sorted by what it separates: two triangles, fluid and air, or fluid and the rest.
-void add_edges(const Mesh& mesh, const simulation::FlowFrame& frame, FlowFigureKind kind, FlowPanel& panel) {
+void add_edges(const FlowMesh& mesh, const simulation::FlowFrame& frame, FlowFigureKind kind, FlowPanel& panel) {
   std::map<Ends, int> triangles_at;
   for (std::size_t t = 0; t < mesh.triangles(); ++t) {
     const auto corner = mesh.triangle(t);
@@ -95,7 +77,7 @@ void add_edges(const Mesh& mesh, const simulation::FlowFrame& frame, FlowFigureK
 }
 
 /// The velocity at a point of the triangles that are drawn, linear in each; absent where there is none of them.
-std::optional<Vec2> velocity_at(Vec2 p, const Mesh& mesh, const std::vector<double>& velocity,
+std::optional<Vec2> velocity_at(Vec2 p, const FlowMesh& mesh, const std::vector<double>& velocity,
                                 const std::vector<std::size_t>& seen) {
   for (const std::size_t t : seen) {
     const auto corner = mesh.triangle(t);
@@ -114,7 +96,7 @@ void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
   double edge = 0;
   std::vector<std::vector<std::size_t>> seen(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const Mesh mesh(runs[k].frame);
+    const FlowMesh mesh(runs[k].frame);
     const auto& velocity = values<double>(runs[k].frame.vertices, "vertices/velocity");
     FlowPanel& panel = figure.panels[k];
     edge = std::max({edge, panel.view.width(), panel.view.height()});
@@ -137,7 +119,7 @@ void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
   figure.length = kLongestArrow * figure.spacing;
   if (figure.full == 0) return;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const Mesh mesh(runs[k].frame);
+    const FlowMesh mesh(runs[k].frame);
     const auto& velocity = values<double>(runs[k].frame.vertices, "vertices/velocity");
     FlowPanel& panel = figure.panels[k];
     // Half a step off the axis, on which arrows would lie on the edge of the fluid.
@@ -155,11 +137,30 @@ void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
   }
 }
 
+/// Of a basin's pile at the time of the frame; empty without one.
+std::vector<Vec2> pile_in(const FlowOfRun& run, double top) {
+  if (!run.scene.basin || !run.scene.basin->pile) return {};
+  const basin::BasinSpec& basin = *run.scene.basin;
+  pile::PileSpec pile;
+  pile.radius = basin.pile->radius;
+  pile.tip = basin.pile->tip;
+  const double apex = basin.depth - basin.pile->start - pile::path(basin.pile->driving, run.frame.time);
+  return pile_outline(pile, apex, top);
+}
+
 }  // namespace
 
+std::string title_of(const FlowOfRun& run) {
+  return run.scene.basin ? fmt::format("{}, t = {:.6g} s", run.title, run.frame.time) : run.title;
+}
+
 View default_view(const FlowOfRun& run) {
-  const Mesh mesh(run.frame);
+  const FlowMesh mesh(run.frame);
   const View box = box_of(mesh);
+  if (run.scene.basin) {
+    const double around = kShareAround * std::max(box.width(), box.height());
+    return {box.left - around, box.right + around, box.bottom - around, box.top + around};
+  }
   View view{std::max(-kBeforeLip, box.left - kMargin), std::min(kBehindLip, box.right + kMargin), box.bottom - kMargin,
             box.bottom};
   for (std::size_t v = 0; v < mesh.vertices(); ++v) {
@@ -174,22 +175,27 @@ FlowFigure flow_figure(FlowFigureKind kind, const std::vector<FlowOfRun>& runs, 
   FlowFigure figure;
   figure.kind = kind;
   if (runs.empty()) return figure;
+  figure.basins = runs.front().scene.basin.has_value();
   View whole = default_view(runs.front());
   for (const FlowOfRun& run : runs) whole = around(whole, default_view(run));
   for (const FlowOfRun& run : runs) {
-    if (!run.scene.jet) throw std::logic_error("a frame of the water of a scene without a jet");
-    const Mesh mesh(run.frame);
+    if (run.scene.basin.has_value() != figure.basins) {
+      throw std::invalid_argument("a jet and a basin have no scale in common");
+    }
+    const FlowMesh mesh(run.frame);
     FlowPanel panel;
-    panel.title = run.title;
+    panel.title = title_of(run);
     panel.view = view.value_or(whole);
     panel.vertices = mesh.vertices();
     panel.triangles = mesh.triangles();
     if (const View box = box_of(mesh); !meet(panel.view, box)) {
       throw std::invalid_argument(
-          fmt::format("the window shows nothing of the fluid, which is x from {:g} to {:g} H and y from {:g} to {:g} H",
-                      box.left, box.right, box.bottom, box.top));
+          fmt::format("the window shows nothing of the fluid, which is x from {0:g} to {1:g} {4} and y from {2:g} to "
+                      "{3:g} {4}",
+                      box.left, box.right, box.bottom, box.top, figure.basins ? "m" : "H"));
     }
-    panel.die = {-run.scene.jet->upstream, 0, 1, panel.view.top};
+    if (run.scene.jet) panel.die = {-run.scene.jet->upstream, 0, 1, panel.view.top};
+    panel.pile = pile_in(run, panel.view.top);
     add_edges(mesh, run.frame, kind, panel);
     figure.panels.push_back(std::move(panel));
   }

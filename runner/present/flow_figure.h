@@ -1,6 +1,7 @@
-// Frames of the water as figures: what is to be seen where before anything is drawn. Lengths are in H, the die's radius
-// or half gap, velocities in U, the mean in the die; x is 0 at the lip, y on the axis. Several runs are panels of one
-// figure and share every scale, so that they can be compared by eye.
+// Frames of the water as figures: what is to be seen where before anything is drawn. A jet's lengths are in H, the
+// die's radius or half gap, its velocities in U, the mean in the die; x is 0 at the lip, y on the axis. A basin's are
+// in m and m/s; x is 0 in its middle, y at its bottom. Several runs, or times of a basin, are panels of one figure and
+// share every scale, so that they can be compared by eye.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ enum class FlowFigureKind {
 /// A frame of a flow, and what is known of its run.
 struct FlowOfRun {
   std::string title;       ///< what tells the run from others
-  scene::SceneSpec scene;  ///< with a jet
+  scene::SceneSpec scene;  ///< with a jet or a basin
   simulation::FlowFrame frame;
 };
 
@@ -37,7 +38,8 @@ struct DrawnTriangle {
 struct FlowPanel {
   std::string title;
   View view;                                ///< what is seen
-  View die;                                 ///< its wall, solid above the fluid; as high as the view
+  View die;                                 ///< of a jet: its wall, solid above the fluid; as high as the view
+  std::vector<base::Vec2> pile;             ///< of a basin: as pile_outline() has it; empty: none
   std::size_t vertices = 0, triangles = 0;  ///< of the whole mesh
   // Only what may lie in the view, at least in part: by bounding boxes.
   std::vector<DrawnEdge> edges;       ///< mesh: between two triangles
@@ -49,18 +51,23 @@ struct FlowPanel {
 
 struct FlowFigure {
   FlowFigureKind kind = FlowFigureKind::mesh;
-  double full = 0;     ///< velocity: the largest speed at a corner of a triangle of any panel
-  double spacing = 0;  ///< velocity: of the grid of arrows
-  double length = 0;   ///< velocity: of an arrow of the speed `full`
+  bool basins = false;  ///< all panels are of basins; otherwise of jets
+  double full = 0;      ///< velocity: the largest speed at a corner of a triangle of any panel
+  double spacing = 0;   ///< velocity: of the grid of arrows
+  double length = 0;    ///< velocity: of an arrow of the speed `full`
   std::vector<FlowPanel> panels;
 };
 
-/// Around the lip: from 2 H before it to 4 H behind it, ending at the fluid; a little beyond the axis and the surface.
+/// What tells the run from others, and a basin's time.
+std::string title_of(const FlowOfRun& run);
+
+/// A jet around the lip: from 2 H before it to 4 H behind it, ending at the fluid; a little beyond the axis and the
+/// surface. A basin as a whole, and a little more.
 View default_view(const FlowOfRun& run);
 
 /// Puts a figure together. Every panel shows `view`, or what holds the default ones of all runs. Throws
-/// std::invalid_argument, in a sentence, when the view lies beside the fluid; store::StoreError when a frame lacks an
-/// array.
+/// std::invalid_argument, in a sentence, when the view lies beside the fluid or jets and basins stand side by side;
+/// store::StoreError when a frame lacks an array.
 FlowFigure flow_figure(FlowFigureKind kind, const std::vector<FlowOfRun>& runs, const std::optional<View>& view);
 
 }  // namespace seapile::present

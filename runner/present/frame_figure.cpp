@@ -8,6 +8,7 @@
 
 #include "runner/present/arrays.h"
 #include "runner/present/axis.h"
+#include "runner/present/pile_outline.h"
 #include "runner/store/store_error.h"
 #include "solver/pile/pile.h"
 
@@ -57,18 +58,6 @@ bool sees(const View& view, const DrawnForce& line) {
 
 bool sees(const View& view, Vec2 point) {
   return point.x >= view.left && point.x <= view.right && point.y >= view.bottom && point.y <= view.top;
-}
-
-std::vector<Vec2> outline_of(const FrameOfRun& run, double top) {
-  const double apex = run.surface - run.frame.depth;
-  const pile::PileSpec& pile = pile_of(run);
-  const double length = std::max(top - apex, pile::tip_height(pile)) + pile.radius;
-  std::vector<Vec2> points;
-  for (const base::Segment& segment : pile::outline(pile, length)) {
-    if (points.empty()) points.push_back(segment.from + Vec2{0, apex});
-    points.push_back(segment.to + Vec2{0, apex});
-  }
-  return points;
 }
 
 double mean_diameter(const std::vector<FrameOfRun>& runs) {
@@ -223,7 +212,7 @@ FrameFigure frame_figure(FigureKind kind, const std::vector<FrameOfRun>& runs, c
                       "y from 0 to {:g} m",
                       panel.box.left, panel.box.right, panel.box.top));
     }
-    panel.pile = outline_of(run, panel.view.top);
+    panel.pile = pile_outline(pile_of(run), run.surface - run.frame.depth, panel.view.top);
     figure.panels.push_back(std::move(panel));
   }
 

@@ -88,7 +88,7 @@ std::string run_text(const store::Manifest& manifest, const std::filesystem::pat
   text += "\nmetrics\n" + metrics_text(manifest.result);
   text += "\nparameters (SI)\n";
   add_values(text, ordered_json::parse(header.scene_json), "");
-  if (drive) add_values(text, ordered_json::parse(header.record_json), "record");
+  if (!header.record_json.empty()) add_values(text, ordered_json::parse(header.record_json), "record");
 
   store::Table files{{"file", "bytes", "sha256"}, {"", "", ""}, {}};
   for (const store::FileEntry& file : manifest.files) {
@@ -109,7 +109,7 @@ std::string study_text(const store::Manifest& manifest) {
   ordered_json study = {{"study", "case_" + header.case_id.substr(0, 10)},
                         {"question", "One case once more: " + header.case_id.substr(0, 10) + "."},
                         {"base", ordered_json::parse(header.scene_json)}};
-  if (header.kind == "drive") study["record"] = ordered_json::parse(header.record_json);
+  if (!header.record_json.empty()) study["record"] = ordered_json::parse(header.record_json);
   return study.dump(2) + "\n";
 }
 

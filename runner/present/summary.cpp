@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "runner/store/run_folder.h"
@@ -23,19 +24,28 @@ constexpr Headline kDriveHeadlines[] = {{"solid fraction", "-", "solid_fraction"
                                         {"mean q_c", "Pa", "tip_resistance_mean", false},
                                         {"fluctuation", "Pa", "tip_resistance_fluctuation", false},
                                         {"max overlap", "-", "overlap_max", false}};
-constexpr Headline kFlowHeadlines[] = {{"swell ratio", "-", "swell_ratio", false},
-                                       {"surface leak", "-", "surface_leak", false},
-                                       {"mass defect", "-", "mass_defect", false},
-                                       {"vertices", "-", "vertices", false}};
+constexpr Headline kJetHeadlines[] = {{"swell ratio", "-", "swell_ratio", false},
+                                      {"surface leak", "-", "surface_leak", false},
+                                      {"mass defect", "-", "mass_defect", false}};
+constexpr Headline kBasinHeadlines[] = {{"volume drift", "-", "volume_drift", false},
+                                        {"lowest q", "-", "lowest_shape", false},
+                                        {"meshes", "-", "meshes", false}};
+constexpr Headline kWaterHeadlines[] = {{"vertices", "-", "vertices", false}};
 
 std::vector<Headline> headlines_of(const std::vector<CaseResult>& cases) {
   std::vector<Headline> all;
-  if (!std::ranges::all_of(cases, &CaseResult::flow))
-    all.assign(std::begin(kDriveHeadlines), std::end(kDriveHeadlines));
-  if (std::ranges::any_of(cases, &CaseResult::flow))
-    all.insert(all.end(), std::begin(kFlowHeadlines), std::end(kFlowHeadlines));
+  const auto has = [&](SceneKind kind) { return std::ranges::find(cases, kind, &CaseResult::kind) != cases.end(); };
+  const auto add = [&](bool wanted, std::span<const Headline> some) {
+    if (wanted) all.insert(all.end(), some.begin(), some.end());
+  };
+  add(has(SceneKind::grains) || cases.empty(), kDriveHeadlines);
+  add(has(SceneKind::jet), kJetHeadlines);
+  add(has(SceneKind::basin), kBasinHeadlines);
+  add(has(SceneKind::jet) || has(SceneKind::basin), kWaterHeadlines);
   return all;
 }
+
+bool is_water(const CaseResult& result) { return result.kind != SceneKind::grains; }
 
 /// What makes packings of the same case differ is left out.
 std::string label_without_seed(const Labels& labels) {
@@ -111,7 +121,7 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
 SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseResult>& cases) {
   SurfaceFigure figure{title, {}};
   for (const CaseResult& result : cases) {
-    if (!is_completed(result, "flow")) continue;
+    if (result.kind != SceneKind::jet || !is_completed(result, "flow")) continue;
     std::optional<SurfaceCurve> curve = read_surface(result.run_folder);
     if (!curve) continue;
     curve->label = label_without_seed(result.labels);
@@ -133,7 +143,7 @@ std::string closing_text(const std::vector<CaseResult>& cases) {
                                                         : Role::key);
   }
   const bool replicated = std::ranges::any_of(each.columns, [](const auto& column) { return column == kSeed; });
-  if (std::ranges::all_of(cases, &CaseResult::flow)) return text(each, Format::table);
+  if (std::ranges::all_of(cases, is_water)) return text(each, Format::table);
   if (!replicated) return text(each, Format::table) + "\n" + kOnePacking + "\n";
   const Grouped grouped = group(each, roles);
   return text(grouped.table, Format::table, grouped.means) + "\n" + remark(grouped, Format::table);

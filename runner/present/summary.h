@@ -13,6 +13,9 @@
 
 namespace seapile::present {
 
+/// A scene is a bed or a drive, a jet, or a basin of water. Only what has grains has a packing.
+enum class SceneKind { grains, jet, basin };
+
 /// One case of a study, done or not.
 struct CaseResult {
   std::string case_id;
@@ -20,16 +23,16 @@ struct CaseResult {
   std::string outcome;               ///< "completed", "diverged", "failed", ...
   std::filesystem::path run_folder;  ///< its sealed run; empty when there is none
   std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
-  bool flow = false;                 ///< a flow without grains: it has no packing
+  SceneKind kind = SceneKind::grains;
 };
 
-/// Labels, outcome, and the numbers that a drive, or a flow, is known by. Throws store::StoreError.
+/// Labels, outcome, and the numbers that each kind of scene is known by. Throws store::StoreError.
 store::Table summary(const std::vector<CaseResult>& cases);
 
 /// The completed drives as a figure, packings of the same case together. Throws store::StoreError.
 Figure resistance_figure(const std::string& title, const std::vector<CaseResult>& cases);
 
-/// The free surfaces of the completed flows as a figure, one curve per case. Throws store::StoreError.
+/// The free surfaces of the completed jets as a figure, one curve per case. Throws store::StoreError.
 SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseResult>& cases);
 
 /// The table that a study ends with, and how far its numbers carry: case by case, or, when the cases have replicates,

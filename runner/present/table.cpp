@@ -264,7 +264,8 @@ std::optional<std::pair<double, std::string>> quantity(const std::string& text) 
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
   if (rest == end) return std::pair(value, std::string());
   const std::string unit(rest + 1, end);
-  if (*rest != ' ' || unit.empty() || unit.find(' ') != std::string::npos) return std::nullopt;
+  const bool one = unit.find(' ') == std::string::npos || unit == "Pa s";  // The one unit of a field with a space.
+  if (*rest != ' ' || unit.empty() || !one) return std::nullopt;
   return std::pair(value, unit);
 }
 

@@ -118,6 +118,14 @@ void write_flow_frames(const std::filesystem::path& folder, const Stamp& stamp, 
        [&](hdf5::FileWriter& writer) { write_surface(writer, stamp, frames, layout); });
 }
 
+std::vector<double> read_flow_times(const std::filesystem::path& folder, const Stamp& stamp) {
+  hdf5::FileReader reader(folder / kFlowFile);
+  check_stamp(reader, "flow", stamp);
+  std::vector<double> times = reader.read<double>("/frames/time");
+  reader.close();
+  return times;
+}
+
 FlowFrame read_flow_frame(const std::filesystem::path& folder, const Stamp& stamp, std::size_t index,
                           bool with_surface) {
   FlowFrame frame;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "runner/store/frame_layout.h"
 #include "runner/store/stamp.h"
@@ -20,5 +21,8 @@ void write_flow_frames(const std::filesystem::path& folder, const Stamp& stamp, 
 /// run.
 simulation::FlowFrame read_flow_frame(const std::filesystem::path& folder, const Stamp& stamp, std::size_t index,
                                       bool with_surface);
+
+/// Of all frames [s].
+std::vector<double> read_flow_times(const std::filesystem::path& folder, const Stamp& stamp);
 
 }  // namespace seapile::store

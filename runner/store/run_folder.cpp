@@ -195,6 +195,12 @@ simulation::FlowFrame read_flow_frame(const Path& run_folder, std::size_t index)
   return read_flow_frame(run_folder, stamp_of(manifest), index, with_surface);
 }
 
+std::vector<double> flow_frame_times(const Path& run_folder) {
+  const Manifest manifest = read_manifest(run_folder);
+  if (manifest.flow_frames == 0) return {};
+  return read_flow_times(intact(run_folder, manifest, kFlowFile).parent_path(), stamp_of(manifest));
+}
+
 std::vector<double> asked_depths(const Path& run_folder) {
   const Manifest manifest = read_manifest(run_folder);
   if (manifest.frames == 0) return {};

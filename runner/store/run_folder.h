@@ -165,6 +165,9 @@ simulation::Frame read_frame(const std::filesystem::path& run_folder, std::size_
 std::size_t flow_frame_count(const std::filesystem::path& run_folder);
 simulation::FlowFrame read_flow_frame(const std::filesystem::path& run_folder, std::size_t index);
 
+/// Their times [s], in their order.
+std::vector<double> flow_frame_times(const std::filesystem::path& run_folder);
+
 /// The depths [m] that the frames of a complete run were asked for, in their order. Throws StoreError.
 std::vector<double> asked_depths(const std::filesystem::path& run_folder);
 

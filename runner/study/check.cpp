@@ -19,7 +19,7 @@ std::vector<Row> rows_of(const CheckText& text, const std::filesystem::path& fol
                          base::Problems& problems) {
   if (text.file.empty()) {
     check.source = text.source;
-    return {{{}, {text.value, text.tolerance, text.unit, "", "", {}}}};
+    return {{{}, {text.value, text.tolerance, text.at_least, text.at_most, text.unit, "", "", {}}}};
   }
   base::Problems in_file;
   ReferenceFile file = read_reference(folder, text.file, text.metric, in_file);
@@ -30,9 +30,15 @@ std::vector<Row> rows_of(const CheckText& text, const std::filesystem::path& fol
   check.source = fmt::format("{} ({})", file.source, text.file);
   std::vector<Row> rows;
   for (ReferenceRow& row : file.rows) {
-    rows.push_back(
-        {std::move(row.which),
-         {row.value, row.tolerance, file.unit, row.reason, fmt::format("\"{}\" line {}", text.file, row.line), {}}});
+    rows.push_back({std::move(row.which),
+                    {row.value,
+                     row.tolerance,
+                     {},
+                     {},
+                     file.unit,
+                     row.reason,
+                     fmt::format("\"{}\" line {}", text.file, row.line),
+                     {}}});
   }
   return rows;
 }

@@ -1,8 +1,10 @@
-// What a study's results are compared with: published values, each of certain cases. No part of any case's identity.
+// What a study's results are compared with: published values, or bounds that it sets itself, each of certain cases. No
+// part of any case's identity.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,12 @@ namespace seapile::study {
 struct Case;
 struct CheckText;
 
-/// A published value, and the cases that it is of.
+/// A published value, or bounds, and the cases that they are of.
 struct Reference {
-  double value = 0, tolerance = 0;  ///< as written; the tolerance is positive
-  std::string unit;                 ///< of both; "": the metric's own
-  std::string reason;               ///< of the tolerance
+  double value = 0, tolerance = 0;          ///< as written; the tolerance is positive
+  std::optional<double> at_least, at_most;  ///< one of them is there: bounds, and no published value
+  std::string unit;                         ///< of all; "": the metric's own
+  std::string reason;                       ///< of the tolerance
   std::string place;  ///< where it is written, for messages: "\"reference/tip.csv\" line 3"; "" in the study
   std::vector<std::size_t> cases;  ///< of the study, by index
 };
@@ -26,7 +29,7 @@ struct Reference {
 struct Check {
   std::string pointer;  ///< its place in the study: "/checks/0"
   std::string metric;
-  std::string source;  ///< where the values are from
+  std::string source;  ///< where the values are from; "": bounds need no source
   double drift = 0;    ///< relative change of our own value that is no drift
   std::vector<Reference> references;
 };

@@ -13,9 +13,10 @@ namespace {
 using base::Problems;
 using Kind = Value::Kind;
 
-constexpr const char* kTwoForms =
+constexpr const char* kForms =
     R"({"metric": name, "reference": "reference/name.csv"} or )"
-    R"({"metric": name, "value": 1, "tolerance": 0.1, "source": text})";
+    R"({"metric": name, "value": 1, "tolerance": 0.1, "source": text} or {"metric": name, "at_most": 1})";
+constexpr const char* kAnyNumber = "a number, in SI units or with its unit";
 
 /// A text that says something.
 void read_words(const Value& value, std::string& words, Problems& problems) {
@@ -45,11 +46,13 @@ class EntryReader {
   CheckText read() {
     text_.place = entry_.place;
     text_.drift = kDrift;
-    report_unknown_keys(entry_, {"metric", "reference", "value", "tolerance", "source", "if", "drift"}, problems_);
+    report_unknown_keys(entry_,
+                        {"metric", "reference", "value", "tolerance", "at_least", "at_most", "source", "if", "drift"},
+                        problems_);
     if (const Value* metric = member("metric")) {
       read_words(*metric, text_.metric, problems_);
     } else if (!entry_.find("metric")) {
-      report(entry_.place, "lacks \"metric\"", kTwoForms);
+      report(entry_.place, "lacks \"metric\"", kForms);
     }
     read_form();
     if (const Value* which = member("if")) text_.which = read_match(*which, problems_);
@@ -69,51 +72,82 @@ class EntryReader {
     return value && value->kind != Kind::unusable ? value : nullptr;
   }
 
-  /// The value is in a file or in the study, not in both.
+  /// The value is in a file, in the study, or there are bounds: one of the three.
   void read_form() {
-    const bool in_file = entry_.find("reference") != nullptr, here = entry_.find("value") != nullptr;
-    if (in_file == here) {
-      report(entry_.place, in_file ? "has both \"reference\" and \"value\"" : "has neither \"reference\" nor \"value\"",
-             kTwoForms);
+    const bool in_file = has("reference"), here = has("value"), bounds = has("at_least") || has("at_most");
+    if (in_file + here + bounds != 1) {
+      report(entry_.place,
+             in_file + here + bounds == 0 ? "has no \"reference\", no \"value\" and no bound"
+                                          : "has more than one of \"reference\", \"value\" and bounds",
+             kForms);
       return;
     }
     for (const char* key : {"tolerance", "source"}) {
       const Value* value = entry_.find(key);
       if (in_file && value) report(value->place, "is said by the reference's file", "nothing here");
-      if (here && !value) report(entry_.place, fmt::format("lacks \"{}\"", key), kTwoForms);
+      if (here && !value) report(entry_.place, fmt::format("lacks \"{}\"", key), kForms);
     }
     if (in_file) {
       if (const Value* file = member("reference")) read_words(*file, text_.file, problems_);
       return;
     }
     if (const Value* source = member("source")) read_words(*source, text_.source, problems_);
-    const Value *value = member("value"), *tolerance = member("tolerance");
-    if (value && tolerance) read_value(*value, *tolerance);
+    if (bounds) {
+      read_bounds();
+    } else if (const Value* value = member("value"), *tolerance = member("tolerance"); value && tolerance) {
+      read_value(*value, *tolerance);
+    }
+  }
+
+  bool has(const char* key) const { return entry_.find(key) != nullptr; }
+
+  /// Two numbers, the second in the unit of the first, which is called `name` and whose unit is the text's; false after
+  /// a problem.
+  bool read_pair(const Value& first, const char* name, const Value& second, const std::string& second_allowed,
+                 double& one, double& other) {
+    const std::size_t before = problems_.size();
+    Quantity leading, following;
+    read_any_quantity(first, kAnyNumber, leading, problems_);
+    read_any_quantity(second, second_allowed, following, problems_);
+    if (problems_.size() > before) return false;
+    text_.unit = leading.unit;
+    one = leading.value;
+    if (leading.unit.empty() != following.unit.empty()) {
+      report(second.place,
+             following.unit.empty() ? fmt::format("has no unit, but {} has one", name)
+                                    : fmt::format("has a unit, but {} has none", name),
+             second_allowed);
+      return false;
+    }
+    const UnitResult in_unit = convert(following, leading.unit);
+    other = in_unit.value;
+    if (!in_unit.problem.empty()) report(second.place, in_unit.problem, second_allowed);
+    return in_unit.problem.empty();
   }
 
   void read_value(const Value& value, const Value& tolerance) {
-    constexpr const char* kAnyNumber = "a number, in SI units or with its unit";
     constexpr const char* kPositive = "a number, more than 0, with the unit that the value has";
-    const std::size_t before = problems_.size();
-    Quantity number, width;
-    read_any_quantity(value, kAnyNumber, number, problems_);
-    read_any_quantity(tolerance, kPositive, width, problems_);
-    if (problems_.size() > before) return;
-    text_.value = number.value;
-    text_.unit = number.unit;
-    if (number.unit.empty() != width.unit.empty()) {
-      report(tolerance.place,
-             width.unit.empty() ? "has no unit, but the value has one" : "has a unit, but the value has none",
-             kPositive);
-      return;
+    if (!read_pair(value, "the value", tolerance, kPositive, text_.value, text_.tolerance)) return;
+    if (!(text_.tolerance > 0))
+      report(tolerance.place, fmt::format("{} is out of range", number_text(text_.tolerance)), kPositive);
+  }
+
+  void read_bounds() {
+    if (const Value* tolerance = entry_.find("tolerance"))
+      report(tolerance->place, "has no place beside a bound", "nothing here");
+    const Value *least = member("at_least"), *most = member("at_most");
+    double low = 0, high = 0;
+    if (least && most) {
+      if (!read_pair(*least, "at_least", *most, kAnyNumber, low, high)) return;
+      if (high < low) report(most->place, "is less than at_least", "at_least or more");
+    } else if (const Value* one = least ? least : most) {
+      Quantity quantity;
+      read_any_quantity(*one, kAnyNumber, quantity, problems_);
+      text_.unit = quantity.unit;
+      low = high = quantity.value;
     }
-    const UnitResult in_unit = convert(width, number.unit);
-    text_.tolerance = in_unit.value;
-    if (!in_unit.problem.empty()) {
-      report(tolerance.place, in_unit.problem, kPositive);
-    } else if (!(text_.tolerance > 0)) {
-      report(tolerance.place, fmt::format("{} is out of range", number_text(width.value)), kPositive);
-    }
+    if (least) text_.at_least = low;
+    if (most) text_.at_most = high;
   }
 
   const Value& entry_;

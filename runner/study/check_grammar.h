@@ -15,7 +15,8 @@ struct CheckText {
   std::string metric;
   std::string file;  ///< "reference/tip.csv"; "": the value stands in the study
   double value = 0, tolerance = 0;
-  std::string unit;  ///< of both; "": the metric's own
+  std::optional<double> at_least, at_most;  ///< instead of value and tolerance
+  std::string unit;                         ///< of all; "": the metric's own
   std::string source;
   std::optional<Match> which;  ///< limits the cases
   double drift = 0;

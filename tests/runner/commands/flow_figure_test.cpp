@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "tests/runner/commands/program.h"
@@ -20,36 +19,25 @@ using testing::Not;
 struct FlowFigureCommand : testing::Test {
   static void SetUpTestSuite() {
     place = new Workplace;
-    place->write("jet.json", R"({
+    ids = place->run_study("jet", R"({
       "study": "jet", "question": "Does a jet shrink?", "fidelity": "standard",
       "base": { "jet": { "geometry": "axisymmetric", "upstream": 1, "downstream": 5, "lip_size": 0.1, "growth": 0.4,
                          "largest_size": 0.4 } },
       "axes": { "jet.reynolds": [24, 36] } })");
-    place->write("small.json", small_study("small"));
-    first = new Finished(place->run({"jet.json"}));
-    ASSERT_EQ(first->exit_code, 0) << first->error;
-    ASSERT_EQ(place->run({"small.json"}).exit_code, 0);
-    const auto rows = nlohmann::json::parse(place->run({"query", "jet", "--format", "json"}).out).at("rows");
-    for (const auto& row : rows) ids.push_back(row.at("case"));
-    drive = nlohmann::json::parse(place->run({"query", "small", "--format", "json"}).out).at("rows").at(0).at("case");
     ASSERT_EQ(ids.size(), 2u);
+    drive = place->run_study("small", small_study("small")).at(0);
   }
-  static void TearDownTestSuite() {
-    delete first;
-    delete place;
-  }
+  static void TearDownTestSuite() { delete place; }
   static Workplace* place;
-  static Finished* first;
   static std::vector<std::string> ids;
   static std::string drive;
 };
 Workplace* FlowFigureCommand::place;
-Finished* FlowFigureCommand::first;
 std::vector<std::string> FlowFigureCommand::ids;
 std::string FlowFigureCommand::drive;
 
 TEST_F(FlowFigureCommand, AStudyOfJetsEndsWithItsSurfacesAndOneOfDrivesDoesNot) {
-  EXPECT_THAT(first->out, EndsWith("\nresults/figures/jet_surface.svg\n"));
+  EXPECT_THAT(place->run({"jet.json"}).out, EndsWith("\nresults/figures/jet_surface.svg\n"));
   const std::string svg = content(place->results() / "figures" / "jet_surface.svg");
   for (const char* text : {"Does a jet shrink?", "reynolds 24", "reynolds 36"}) EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_FALSE(fs::exists(place->results() / "figures" / "jet.svg"));
@@ -74,19 +62,28 @@ TEST_F(FlowFigureCommand, EveryKindIsAWholePictureInEitherFormat) {
   }
 }
 
+TEST_F(FlowFigureCommand, AJetsMeshHasAQualityToo) {
+  EXPECT_EQ(place->run({"figure", "quality", ids[0], ids[1]}).out, "quality.svg\n");
+  EXPECT_THAT(content(place->folder() / "quality.svg"), HasSubstr("q &lt; 0.5"));
+}
+
 TEST_F(FlowFigureCommand, AWholeJetIsNotTooLongForAWindow) {
   EXPECT_EQ(place->run({"figure", "mesh", ids[0], "--window", "-3.5,20,-0.1,1.1", "-o", "long.svg"}).exit_code, 0);
 }
 
 TEST_F(FlowFigureCommand, WhatDoesNotFitTheRunEndsWithTwoAndOneLineAndWritesNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"figure", "forces", ids[0], "-o", "c.svg"}, "is a flow: its figures are mesh and velocity"},
-      {{"figure", "bed", ids[0], "-o", "c.svg"}, "is a flow: its figures are mesh and velocity"},
+      {{"figure", "forces", ids[0], "-o", "c.svg"}, "is a flow: its figures are mesh, velocity and quality"},
+      {{"figure", "bed", ids[0], "-o", "c.svg"}, "is a flow: its figures are mesh, velocity and quality"},
       {{"figure", "mesh", drive, "-o", "c.svg"}, "is a drive: its figures are bed, forces, stress and velocity"},
       {{"figure", "velocity", ids[0], drive, "-o", "c.svg"}, "a drive and a flow"},
       {{"figure", "velocity", drive, ids[0], "-o", "c.svg"}, "a drive and a flow"},
       {{"figure", "velocity", ids[0], "--depth", "0.1", "-o", "c.svg"}, "is a flow; its last frame is drawn"},
       {{"figure", "mesh", ids[0], "--window", "7,8,0,1", "-o", "c.svg"}, "nothing of the fluid"},
+      {{"figure", "mesh", ids[0], "--time", "0.1", "-o", "c.svg"}, "is a jet; its last frame is drawn"},
+      {{"figure", "velocity", drive, "--time", "0.1", "-o", "c.svg"}, "is a drive; its frames are chosen by --depth"},
+      {{"figure", "quality", drive, "-o", "c.svg"}, "is a drive: its figures are bed, forces, stress and velocity"},
+      {{"figure", "quality", ids[0], "--window", "0,1,0,1", "-o", "c.svg"}, "quality is of whole meshes"},
   };
   for (const auto& [arguments, word] : wrong) {
     const Finished finished = place->run(arguments);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace seapile::commands {
@@ -53,6 +54,16 @@ pid_t Workplace::start(const std::vector<std::string>& arguments) const {
   redirect(STDERR_FILENO, folder_ / "error", O_WRONLY | O_CREAT | O_TRUNC);
   ::execv(SEAPILE_RUNNER, words.data());
   ::_exit(127);
+}
+
+std::vector<std::string> Workplace::run_study(const std::string& name, const std::string& text) const {
+  write(name + ".json", text);
+  if (const Finished finished = run({name + ".json"}); finished.exit_code != 0)
+    throw std::runtime_error(finished.error);
+  std::vector<std::string> ids;
+  const auto answer = nlohmann::json::parse(run({"query", name, "--each", "--format", "json"}).out);
+  for (const auto& row : answer.at("rows")) ids.push_back(row.at("case"));
+  return ids;
 }
 
 Finished Workplace::run(const std::vector<std::string>& arguments, const std::string& input) const {

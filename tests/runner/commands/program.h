@@ -32,6 +32,9 @@ class Workplace {
   /// Runs the program in the folder until it ends.
   Finished run(const std::vector<std::string>& arguments, const std::string& input = "") const;
 
+  /// Writes a study NAME.json, runs it, which has to succeed, and returns the ids of its cases, shortened.
+  std::vector<std::string> run_study(const std::string& name, const std::string& text) const;
+
   /// Starts the program in the folder; its output goes to the files "out" and "error" there.
   pid_t start(const std::vector<std::string>& arguments) const;
 

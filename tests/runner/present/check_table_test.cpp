@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace seapile::present {
 namespace {
 
@@ -67,6 +70,45 @@ TEST(CheckText, AValueFarBelowItsToleranceStillShowsDigits) {
   EXPECT_THAT(check_text({far}), HasSubstr("0.034  MPa       5.000      -4.966      1.000  FAILED"));
 }
 
+Comparison bounded(double value) {
+  Comparison comparison = published("flat", {value});
+  comparison.against = Against::bounds;
+  comparison.metric = "drift";
+  comparison.unit = "-";
+  comparison.reference.reset();
+  comparison.tolerance = 0;
+  comparison.source = comparison.reason = "";
+  comparison.at_most = 1e-10;
+  return comparison;
+}
+
+TEST(CheckText, BoundsAreATableOfTheirOwn) {
+  const std::string shown = check_text({published("flat", {30000}), bounded(3e-13)});
+  EXPECT_THAT(shown, HasSubstr("source 1: Somebody (2024)\n\nbounds\n\nmetric"));
+  EXPECT_THAT(shown, HasSubstr("3e-13  -            -    1e-10  ok"));
+  EXPECT_THAT(shown, Not(HasSubstr("source 2")));
+  EXPECT_TRUE(check_text({bounded(3e-13)}).starts_with("bounds\n"));
+}
+
+TEST(CheckTable, HasTheBoundsInColumnsOfTheirOwn) {
+  const store::Table table = check_table({bounded(3e-13), published("flat", {30000})});
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(table.columns, name) - table.columns.begin());
+  };
+  EXPECT_EQ(table.rows[0][column("against")], Cell{"bounds"});
+  EXPECT_EQ(table.rows[0][column("at_most")], Cell{1e-10});
+  EXPECT_EQ(table.rows[0][column("at_least")], Cell{});
+  EXPECT_EQ(table.rows[0][column("reference")], Cell{});
+  EXPECT_EQ(table.rows[0][column("verdict")], Cell{"ok"});
+  EXPECT_EQ(table.rows[1][column("at_most")], Cell{});
+}
+
+TEST(CheckRemark, SaysByWhichBoundAValueIsTooLarge) {
+  EXPECT_EQ(check_remark({bounded(3e-10)}, false), "FAILED  drift, pile.tip=flat: 3e-10, at most 1e-10\n");
+  EXPECT_EQ(check_remark({bounded(std::nan(""))}, false), "FAILED  drift, pile.tip=flat: is no number\n");
+  EXPECT_EQ(check_remark({bounded(1e-10)}, false), "");
+}
+
 TEST(CheckText, EachSourceIsNamedOnce) {
   Comparison other = published("flat", {30000});
   other.source = "Nobody (2023)";
@@ -76,7 +118,8 @@ TEST(CheckText, EachSourceIsNamedOnce) {
 }
 
 TEST(CheckRemark, ALineForEachFailureWithTheReasonOrTheNote) {
-  const std::string lines = check_remark({published("flat", {40000}), published("conical", {30000}), accepted(30001)}, true);
+  const std::string lines =
+      check_remark({published("flat", {40000}), published("conical", {30000}), accepted(30001)}, true);
   EXPECT_THAT(lines, HasSubstr("FAILED  q_c, pile.tip=flat: 10.0 kPa away, tolerance 1.5 kPa (read off a figure)\n"));
   EXPECT_THAT(lines, HasSubstr("FAILED  q_c, pile.tip=flat: 0.001000 kPa away, tolerance 0.000030 kPa; accepted of run "
                                "0001 with grains=3 (looked at)\n"));
@@ -95,9 +138,9 @@ TEST(CheckRemark, SaysHowFarTheNumbersCarry) {
 
 TEST(CheckTable, HasEveryDigitInTheMetricsOwnUnit) {
   const store::Table table = check_table({published("flat", {31000, 31100, 31200}), accepted(30000.05)});
-  EXPECT_EQ(table.columns,
-            (std::vector<std::string>{"against", "metric", "case", "pile.tip", "n", "value", "low", "high", "unit",
-                                      "reference", "difference", "tolerance", "verdict", "source", "reason"}));
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"against", "metric", "case", "pile.tip", "n", "value", "low",
+                                                     "high", "unit", "reference", "difference", "tolerance", "at_least",
+                                                     "at_most", "verdict", "source", "reason"}));
   const auto& mean = table.rows.at(0);
   EXPECT_EQ(mean[0], Cell{"published"});
   EXPECT_EQ(mean[2], Cell{});
@@ -106,13 +149,13 @@ TEST(CheckTable, HasEveryDigitInTheMetricsOwnUnit) {
   EXPECT_NEAR(std::get<double>(mean[7]) - std::get<double>(mean[6]), 2 * 4.302653 * 100 / std::sqrt(3.0), 1e-3);
   EXPECT_EQ(mean[8], Cell{"Pa"});
   EXPECT_EQ(mean[10], Cell{1100.0});
-  EXPECT_EQ(mean[12], Cell{"ok"});
-  EXPECT_EQ(mean[14], Cell{"read off a figure"});
+  EXPECT_EQ(mean[14], Cell{"ok"});
+  EXPECT_EQ(mean[16], Cell{"read off a figure"});
   const auto& drift = table.rows.at(1);
   EXPECT_EQ(drift[0], Cell{"accepted"});
   EXPECT_EQ(drift[2], Cell{"aaaaaaaaaa"});
   EXPECT_EQ(drift[6], Cell{});
-  EXPECT_EQ(drift[12], Cell{"FAILED"});
+  EXPECT_EQ(drift[14], Cell{"FAILED"});
 }
 
 }  // namespace

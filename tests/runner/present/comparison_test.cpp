@@ -80,6 +80,38 @@ TEST(Judge, AToleranceOfNothingAsksForTheVerySameNumber) {
   EXPECT_EQ(judge(comparison).finding, Finding::failed);
 }
 
+/// Values of as many cases beside bounds.
+Finding within(const std::vector<double>& values, std::optional<double> at_least, std::optional<double> at_most) {
+  Comparison comparison = compared(values);
+  comparison.against = Against::bounds;
+  comparison.reference.reset();
+  comparison.at_least = at_least;
+  comparison.at_most = at_most;
+  return judge(comparison).finding;
+}
+
+TEST(JudgeBounds, WhatLiesOnABoundIsWithin) {
+  EXPECT_EQ(within({1e-10}, {}, 1e-10), Finding::ok);
+  EXPECT_EQ(within({std::nextafter(1e-10, 1.0)}, {}, 1e-10), Finding::failed);
+  EXPECT_EQ(within({2}, 2, {}), Finding::ok);
+  EXPECT_EQ(within({std::nextafter(2.0, 1.0)}, 2, {}), Finding::failed);
+  EXPECT_EQ(within({2.5}, 2, 3), Finding::ok);
+  EXPECT_EQ(within({3.5}, 2, 3), Finding::failed);
+  EXPECT_EQ(within({1.5}, 2, 3), Finding::failed);
+  EXPECT_EQ(within({-1e300}, {}, 0), Finding::ok);
+}
+
+TEST(JudgeBounds, WhatIsNoNumberIsWithinNone) {
+  EXPECT_EQ(within({std::nan("")}, {}, 1), Finding::failed);
+  EXPECT_EQ(within({std::nan("")}, 0, {}), Finding::failed);
+}
+
+TEST(JudgeBounds, OfSeveralPackingsTheMeanDecidesAndAllHaveToBeThere) {
+  EXPECT_EQ(within({1, 4}, {}, 3), Finding::ok);
+  EXPECT_EQ(within({1, 6}, {}, 3), Finding::failed);
+  EXPECT_EQ(within({}, {}, 3), Finding::missing);
+}
+
 TEST(OverPackings, CasesThatDifferInTheSeedAloneAreOneComparison) {
   const auto labels = [](const std::string& tip, const std::string& seed) {
     return Labels{{"pile.tip", tip}, {"bed.seed", seed}};

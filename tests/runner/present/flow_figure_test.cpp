@@ -160,12 +160,11 @@ TEST(FlowFigure, TheDefaultWindowIsAroundTheLipAndEndsAtTheFluid) {
 }
 
 TEST(FlowFigure, WhatCannotBeSeenIsSaid) {
-  try {
-    flow_figure(FlowFigureKind::mesh, {straight_jet()}, View{5, 6, 0, 1});
-    ADD_FAILURE() << "nothing was said";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("x from -1 to 2 H"));
-  }
+  EXPECT_THAT(
+      [] {
+        flow_figure(FlowFigureKind::mesh, {straight_jet()}, View{5, 6, 0, 1});
+      },
+      testing::ThrowsMessage<std::invalid_argument>(HasSubstr("x from -1 to 2 H")));
 }
 
 TEST(FlowFigure, AFrameThatDoesNotFitTogetherIsDamage) {

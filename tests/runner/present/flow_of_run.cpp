@@ -34,6 +34,30 @@ FlowOfRun straight_jet() {
   return run;
 }
 
+FlowOfRun small_basin() {
+  FlowOfRun run = straight_jet();
+  run.title = "basin.viscosity=0.1 Pa s";
+  run.scene.jet.reset();
+  basin::BasinSpec& basin = run.scene.basin.emplace();
+  basin.width = 3;
+  basin.depth = 1;
+  run.frame.time = 2.5;
+  move(run, [](Vec2 p) { return Vec2{p.x - 0.5, p.y}; });
+  std::vector<std::int64_t> top;
+  for (std::int64_t i = 0; i <= 6; ++i) top.push_back(14 + i);
+  run.frame.surface[0].values = top;
+  return run;
+}
+
+void move(FlowOfRun& run, Vec2 (*place)(Vec2 place)) {
+  auto& position = std::get<std::vector<double>>(run.frame.vertices[0].values);
+  for (std::size_t k = 0; k < position.size(); k += 2) {
+    const Vec2 p = place({position[k], position[k + 1]});
+    position[k] = p.x;
+    position[k + 1] = p.y;
+  }
+}
+
 void set_velocity(FlowOfRun& run, Vec2 (*velocity)(Vec2 place)) {
   const auto& position = std::get<std::vector<double>>(run.frame.vertices[0].values);
   auto& list = std::get<std::vector<double>>(run.frame.vertices[1].values);

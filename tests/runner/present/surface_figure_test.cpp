@@ -84,12 +84,16 @@ TEST_F(SurfaceFigureTest, OfARunIsTheSurfaceOfItsLastFrame) {
   EXPECT_EQ(curve->x, std::get<std::vector<double>>(frame.surface.at(1).values));
   EXPECT_EQ(curve->height, std::get<std::vector<double>>(frame.surface.at(2).values));
 
-  CaseResult result{store::sample::flow_header().case_id, {{"jet.reynolds", "24"}}, "completed", run, {}, true};
-  const SurfaceFigure figure = surface_figure("title", {result, {std::string(64, 'a'), {}, "failed", {}, {}, true}});
+  CaseResult result{
+      store::sample::flow_header().case_id, {{"jet.reynolds", "24"}}, "completed", run, {}, SceneKind::jet};
+  const SurfaceFigure figure =
+      surface_figure("title", {result, {std::string(64, 'a'), {}, "failed", {}, {}, SceneKind::jet}});
   ASSERT_EQ(figure.curves.size(), 1u);
   EXPECT_EQ(figure.curves[0].label, "reynolds 24");
   EXPECT_EQ(figure.curves[0].height, curve->height);
   EXPECT_THAT(resistance_figure("title", {result}).groups, IsEmpty()) << "a flow is no drive";
+  result.kind = SceneKind::basin;
+  EXPECT_THAT(surface_figure("title", {result}).curves, IsEmpty()) << "a basin has no die";
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ TEST(LabelTable, MixedUnitsOrWordsStayText) {
 
 TEST(Quantity, IsANumberAndOneUnit) {
   EXPECT_EQ(quantity("0.06 m/s"), std::pair(0.06, std::string("m/s")));
+  EXPECT_EQ(quantity("0.001 Pa s"), std::pair(0.001, std::string("Pa s")));
   EXPECT_EQ(quantity("-3"), std::pair(-3.0, std::string()));
   for (const char* text : {"", "flat", "3m", "3 m s", "3 ", "nan", "inf", "0x10", "1 2 3"}) {
     EXPECT_FALSE(quantity(text)) << text;

@@ -43,6 +43,7 @@ class Basin : public testing::Test {
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(difference(read_flow_frame(folder, k), sample::flow_frame(k)), "") << k;
     }
+    EXPECT_EQ(flow_frame_times(folder), (std::vector<double>{0, 0.5, 1}));
     EXPECT_EQ(verify(folder), std::vector<std::string>{});
   }
 

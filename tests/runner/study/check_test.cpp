@@ -74,6 +74,21 @@ TEST_F(Checks, AValueInTheStudyIsOfEveryCaseOrOfThoseOfItsCondition) {
   EXPECT_THAT(found[1].references[0].cases, ElementsAre(1, 3));
 }
 
+TEST_F(Checks, BoundsAreOfEveryCaseOrOfThoseOfTheirCondition) {
+  const auto found = checks(R"([
+    {"metric": "drift", "at_most": 1e-10},
+    {"metric": "q_c", "at_least": "1 kPa", "at_most": "2000 Pa", "source": "hand", "if": {"pile.tip": "flat"}}])");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].references[0].at_most, 1e-10);
+  EXPECT_FALSE(found[0].references[0].at_least);
+  EXPECT_EQ(found[0].references[0].cases.size(), 8u);
+  EXPECT_EQ(found[0].source, "");
+  EXPECT_EQ(found[1].references[0].at_least, 1);
+  EXPECT_EQ(found[1].references[0].at_most, 2);
+  EXPECT_EQ(found[1].references[0].unit, "kPa");
+  EXPECT_EQ(found[1].references[0].cases.size(), 4u);
+}
+
 TEST_F(Checks, AConditionLimitsTheRowsOfAFileAsWell) {
   reference("0.06,44.3,1,read off\n", "pile.driving.constant.speed [m/s]");
   EXPECT_THAT(checks(R"([{"metric": "q_c", "reference": "reference/tip.csv", "if": {"pile.tip": "conical"}}])")[0]
@@ -120,9 +135,10 @@ TEST_F(Checks, TheExamplesOfTheDocumentationAreRead) {
   };
   write("reference/tip.csv", block("# source:"));
   const auto found = study(kEight + ", " + block("\"checks\": [")).checks;
-  ASSERT_EQ(found.size(), 2u);
+  ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].references.size(), 2u);
   EXPECT_THAT(found[1].references[0].cases, ElementsAre(4, 5, 6, 7));
+  EXPECT_EQ(found[2].references[0].at_most, 0.05);
 }
 
 TEST_F(Checks, ChangeNoIdentity) {
