@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/mesh/generate.h"
 #include "solver/mesh/inversion.h"
 #include "tests/solver/basin/scenes.h"
 
@@ -27,7 +28,7 @@ TEST(Basin, WaterAtRestStaysAtRestAroundAPile) {
   Basin basin = filled(spec);
   ASSERT_EQ(run(basin, 5), "");
   EXPECT_EQ(largest_speed(basin), 0);
-  EXPECT_EQ(basin.pile_force[1], 0);
+  EXPECT_NEAR(basin.pile_force[1], 0, 1e-12);
 }
 
 TEST(Basin, WaterThatStandsHigherPressesThePileUp) {
@@ -77,12 +78,12 @@ TEST(Basin, AFixedTopHasNoSurface) {
   EXPECT_GT(largest_speed(basin), 0.01);  // the water leaves through the top
 }
 
-/// A hump so sharp that its surface overturns; on triangles in no order, which vertical motion can tangle.
+/// A hump as high as the water is deep: what runs up the walls is too sharp for triangles in no order.
 BasinSpec sharp(const MotionMethod& motion) {
   BasinSpec spec;
-  spec.surface->initial = HumpSurface{0.12, 0.012};
+  spec.surface->initial = HumpSurface{0.25, 0.06};
   spec.surface->tension = 0.07;
-  spec.mesh.pattern = UnstructuredMesh{0.025, 0.025, 0.15};
+  spec.mesh.pattern = UnstructuredMesh{0.02, 0.02, 0.15};
   spec.mesh.motion = motion;
   spec.time.step = 5e-4;
   return spec;
@@ -107,7 +108,13 @@ TEST(Basin, AMeshThatWouldTurnOverIsSeenAndTheLastGoodStateStays) {
   EXPECT_NO_THROW(mesh::check(basin.flow.mesh));
 }
 
-TEST(Basin, EllipticMotionSurvivesLongerThanVerticalMotion) {
+TEST(Basin, ASurfaceThatIsTooSharpAtTheStartIsRefused) {
+  BasinSpec spec = sharp(EllipticMotion{});
+  spec.surface->initial = HumpSurface{-0.2, 0.02};
+  EXPECT_THROW(filled(spec), mesh::NoMesh);
+}
+
+TEST(Basin, ARisingSurfaceIsBorneLongerByEllipticThanByVerticalMotion) {
   Basin vertical = filled(sharp(VerticalMotion{})), elliptic = filled(sharp(EllipticMotion{}));
   run(vertical, 2000);
   run(elliptic, 2000);
