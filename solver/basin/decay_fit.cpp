@@ -18,7 +18,7 @@ struct Series {
 
 /// A, B, c, then w and d by the series' length.
 using Parameters = Eigen::Matrix<double, 5, 1>;
-enum Parameter { kCosine, kSine, kMean, kFrequency, kDecayRate };
+constexpr int kCosine = 0, kSine = 1, kMean = 2, kFrequency = 3, kDecayRate = 4;
 
 /// At one time, the value that the parameters give, and its derivative by each.
 struct Prediction {
