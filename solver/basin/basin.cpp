@@ -8,6 +8,7 @@
 
 #include "solver/basin/remesh.h"
 #include "solver/mesh/basin_mesh.h"
+#include "solver/mesh/inversion.h"
 #include "solver/mesh/rectangle.h"
 
 namespace seapile::basin {
@@ -268,8 +269,10 @@ Basin filled(const BasinSpec& spec, base::InstructionSet instructions) {
   Domain domain = domain_of(spec, flow.mesh, top, tip);
   Basin basin = assembled(spec, instructions, std::move(flow), std::move(top), std::move(domain));
   for (std::size_t s = 0; s < basin.top.x.size(); ++s) basin.top.height[s] = initial_height(spec, basin.top.x[s]);
+  if (const std::string why = fluid::objection(basin.top); !why.empty()) throw mesh::NoMesh("at the start " + why);
   place(basin, tip);
-  mesh::check(basin.flow.mesh);
+  if (mesh::first_inversion(basin.flow.mesh, basin.domain.reference, basin.flow.mesh.position))
+    throw mesh::NoMesh("the surface at the start is too sharp for the mesh: triangles would turn over");
   set_outside(basin);
   fluid::remember(basin.past, basin.flow, spec.time.step);
   basin.past_tip = {tip};

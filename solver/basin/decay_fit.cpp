@@ -11,14 +11,14 @@
 namespace seapile::basin {
 namespace {
 
-/// A series over times from 0 to 1, with values about 0 that reach 1.
+/// A series over times from 0 to 1, with values that span 1.
 struct Series {
   std::vector<double> time, value;
 };
 
 /// A, B, c, then w and d by the series' length.
 using Parameters = Eigen::Matrix<double, 5, 1>;
-enum Parameter { kCosine, kSine, kMean, kFrequency, kDecayRate };
+constexpr int kCosine = 0, kSine = 1, kMean = 2, kFrequency = 3, kDecayRate = 4;
 
 /// At one time, the value that the parameters give, and its derivative by each.
 struct Prediction {
@@ -66,7 +66,7 @@ Parameters first_guess(const Series& a) {
   const double most = std::min(30.0, 0.45 * static_cast<double>(used));
   Parameters best = Parameters::Zero();
   double least = std::numeric_limits<double>::infinity();
-  for (double periods = 0.5; periods < most; periods += 0.25) {
+  for (double periods = 0.5; periods < most; periods += 0.5) {
     const Parameters p = with_best_shares(a, 2 * std::numbers::pi * periods, stride);
     const double sum = squares(a, p, stride);
     if (sum < least) {
@@ -110,12 +110,12 @@ std::optional<Mode> fitted(std::span<const double> time, std::span<const double>
   if (time.size() < 8) return {};
   const double begin = time.front(), length = time.back() - begin;
   const auto [least, most] = std::minmax_element(amplitude.begin(), amplitude.end());
-  const double middle = (*least + *most) / 2, scale = (*most - *least) / 2;
+  const double scale = *most - *least;
   if (!(scale > 0)) return {};
   Series a;
   for (std::size_t i = 0; i < time.size(); ++i) {
     a.time.push_back((time[i] - begin) / length);
-    a.value.push_back((amplitude[i] - middle) / scale);
+    a.value.push_back(amplitude[i] / scale);
   }
 
   const Parameters p = least_squares(a, first_guess(a));

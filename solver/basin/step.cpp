@@ -51,17 +51,17 @@ class Way {
   void move_surface(bool by_flow) {
     if (!basin_.spec.surface) return;
     fluid::FreeSurface& top = basin_.top;
-    if (by_flow) {
-      const std::vector<base::Vec2> now = velocities(basin_.flow.unknown);
-      top.height = fluid::advanced_height(top, levels_, dt_, lift(now), now);
-    } else if (conserves()) {
+    if (!by_flow && conserves()) {
       std::vector<double> flux = basin_.past_flux[0];
       if (second_)
         for (std::size_t s = 0; s < flux.size(); ++s) flux[s] = 2 * flux[s] - basin_.past_flux[1][s];
       top.height = risen(top, balanced(std::move(flux)), rate(), before());
-    } else {
-      top.height = fluid::advanced_height(top, levels_, dt_, lift(levels_[0].interstitial));
+      return;
     }
+    // Explicit schemes go by the levels alone.
+    const std::vector<base::Vec2> now = by_flow ? velocities(basin_.flow.unknown) : std::vector<base::Vec2>{};
+    top.height = fluid::advanced_height(top, levels_, dt_, 0, now);
+    if (basin_.spec.surface->volume_correction) correct_volume(now);
   }
 
   /// Gives the surface what the equations of continuity are short of, when the flow is solved.
@@ -136,8 +136,26 @@ class Way {
     return flux;
   }
 
-  double lift(std::span<const base::Vec2> velocity) const {
-    return basin_.spec.surface->volume_correction ? fluid::volume_correction(basin_.top, velocity, displaced()) : 0;
+  /// Area below the surface, above the bottom [m2].
+  double area_below(const std::vector<double>& height) const {
+    const fluid::FreeSurface& top = basin_.top;
+    double area = 0;
+    for (std::size_t s = 0; s + 1 < height.size(); ++s)
+      if (top.gap != s) area += 0.5 * (top.x[s + 1] - top.x[s]) * (height[s] + height[s + 1]);
+    return area;
+  }
+
+  /// Thesis (3.17): lifts v_y by as much everywhere as makes the surface rise by what the pile displaces. Heights are
+  /// linear in the lift.
+  void correct_volume(std::span<const base::Vec2> now) {
+    fluid::FreeSurface& top = basin_.top;
+    const bool implicit = second_ && top.scheme == fluid::KinematicScheme::upwinded;
+    const double wanted =
+        implicit ? area_below(before()) + displaced() / rate() : area_below(levels_[0].height) + displaced() * dt_;
+    constexpr double kLift = 1;  // [m/s]
+    const std::vector<double> lifted = fluid::advanced_height(top, levels_, dt_, kLift, now);
+    const double share = (wanted - area_below(top.height)) / (area_below(lifted) - area_below(top.height));
+    for (std::size_t s = 0; s < lifted.size(); ++s) top.height[s] += share * (lifted[s] - top.height[s]);
   }
 
   Basin& basin_;

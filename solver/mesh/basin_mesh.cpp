@@ -75,19 +75,22 @@ TriangleMesh mirrored(const TriangleMesh& half) {
 TriangleMesh basin_mesh(const BasinOutline& outline, const std::function<double(base::Vec2)>& size,
                         double least_shape) {
   const std::vector<Corner> corners = half_of(outline);
+  std::string why;
   double best = 0;
   for (const double factor : {1.0, 0.95, 1.05, 0.9, 1.1, 0.85, 0.8, 0.7, 0.6})
-    for (const int algorithm : {6, 5}) {
-      const TriangleMesh half =
-          generate(corners, [&](base::Vec2 p) { return fitting(corners, p, factor * size(p)); }, {algorithm, 10});
-      const double lowest = summary_of(quality_of(half)).lowest_shape;
-      best = std::max(best, lowest);
-      if (lowest < least_shape) continue;
-      TriangleMesh mesh = mirrored(half);
-      check(mesh);
-      return mesh;
-    }
-  throw NoMesh("mesh: of all basins the best has a shape quality of " + std::to_string(best) + " where " +
+    for (const int algorithm : {6, 5}) try {
+        const TriangleMesh half =
+            generate(corners, [&](base::Vec2 p) { return fitting(corners, p, factor * size(p)); }, {algorithm, 10});
+        best = std::max(best, summary_of(quality_of(half)).lowest_shape);
+        if (best < least_shape) continue;
+        TriangleMesh mesh = mirrored(half);
+        check(mesh);
+        return mesh;
+      } catch (const NoMesh& error) {
+        why = error.what();
+      }
+  if (best == 0) throw NoMesh(why);
+  throw NoMesh("mesh: of all meshes of the basin the best has a shape quality of " + std::to_string(best) + " where " +
                std::to_string(least_shape) + " is asked for");
 }
 

@@ -60,8 +60,7 @@ std::vector<std::int32_t> Buckets::near(const Box& box) const {
   std::vector<std::int32_t> found;
   for (const std::size_t cell : cells(box)) found.insert(found.end(), in_cell_[cell].begin(), in_cell_[cell].end());
   std::ranges::sort(found);
-  const auto again = std::ranges::unique(found);
-  found.erase(again.begin(), again.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

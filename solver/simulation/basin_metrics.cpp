@@ -85,6 +85,8 @@ void add_wave(std::vector<Metric>& metrics, const basin::Basin& basin, const Rec
     }
   const auto found = basin::fitted(time, amplitude);
   if (!found) return;
+  metrics.push_back({"fitted_periods", (time.back() - time.front()) * found->frequency / (2 * std::numbers::pi), "-",
+                     "periods that were fitted, of ten or those of two e-foldings"});
   metrics.push_back({"frequency", found->frequency, "rad/s", "frequency of the wave, fitted"});
   metrics.push_back({"decay_rate", found->decay_rate, "1/s", "decay rate of the wave, fitted"});
   metrics.push_back(

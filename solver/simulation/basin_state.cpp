@@ -156,6 +156,10 @@ Basin restored(const basin::BasinSpec& spec, base::InstructionSet instructions, 
   basin.flow.mesh_velocity = vectors(array_of<double>(state, "flow/mesh_velocity", 2 * vertices));
   basin.top.height = array_of<double>(state, "surface/height", static_cast<std::ptrdiff_t>(basin.top.vertex.size()));
   basin.past_tip = array_of<double>(state, "pile/past_tip", static_cast<std::ptrdiff_t>(basin.past.level.size()));
+  const auto& flux = array_of<double>(state, "surface/past_flux");
+  const auto count = static_cast<std::ptrdiff_t>(basin.top.height.size());
+  for (auto level = flux.begin(); flux.end() - level >= count; level += count)
+    basin.past_flux.emplace_back(level, level + count);
   const auto& force = array_of<double>(state, "pile/force", 2);
   basin.pile_force = {force[0], force[1]};
   const auto& steps = array_of<std::int64_t>(state, "basin/steps", 3);

@@ -37,8 +37,7 @@ std::vector<base::Vec2> places(const TriangleMesh& mesh, std::int32_t tag) {
   for (const BoundaryEdge& e : mesh.boundary)
     if (e.tag == tag) places.insert(places.end(), {mesh.position[e.from], mesh.position[e.to]});
   std::ranges::sort(places, [](base::Vec2 a, base::Vec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
-  const auto equal = std::ranges::unique(places);
-  places.erase(equal.begin(), equal.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }
 
@@ -176,6 +175,17 @@ TEST(BasinMesh, SaysHowGoodTheBestWasWhenNoneIsGoodEnough) {
     ADD_FAILURE() << "was meshed";
   } catch (const NoMesh& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("the best has a shape quality of 0.8"));
+  }
+}
+
+TEST(BasinMesh, HasGmshsWordsWhenThereIsNone) {
+  BasinOutline crossing = outline(1, true);
+  crossing.top[5].y = -0.1;
+  try {
+    basin_mesh(crossing, kEven);
+    ADD_FAILURE() << "was meshed";
+  } catch (const NoMesh& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("Gmsh could not mesh the domain: "));
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kRadius = 0.125, kShoulder = 1.2, kApex = 0.9835, kDepth = 2;
 constexpr Zones kZones{.reach = 0.8};
 
-std::vector<std::int32_t> by_rising_x(const TriangleMesh& mesh, std::vector<std::int32_t> tags) {
+std::vector<std::int32_t> by_rising_x(const TriangleMesh& mesh, const std::vector<std::int32_t>& tags) {
   std::vector<std::int32_t> vertices;
   for (const std::int32_t tag : tags) {
     std::vector<std::int32_t> side = chain(mesh, tag);
