@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/runner/execute/water_job.h"
 
@@ -48,6 +49,44 @@ TEST_F(BasinJob, IsSealedWithItsPartsItsSeriesAndItsFrames) {
 TEST_F(BasinJob, KilledAndContinuedItEndsInTheSameBits) {
   expect_the_same_bits_when_killed(
       basin_study(R"(, "viscosity": 0.01)", R"("record": {"interval": 0.01, "times": [0.05, 0.15, 0.25]},)"));
+}
+
+// The meshes of its frames differ, and the checkpoint may lie before or behind the new one.
+TEST_F(BasinJob, WithAPileAndANewMeshItEndsInTheSameBitsToo) {
+  expect_the_same_bits_when_killed(R"({"study": "pile", "record": {"interval": 0.1, "times": [1, 2, 3, 4]},
+    "base": {"basin": {"width": 5, "depth": 2.5, "viscosity": 1, "pile": {"start": 0.8},
+      "mesh": {"pattern": {"unstructured": {"size": 0.25, "pile_size": 0.12}}, "motion": "zones",
+               "remesh": {"share": 0.02, "shape": 0.7}},
+      "time": {"step": 0.05, "duration": 5}}}})");
+  const fs::path run = run_in(place.results());
+  ASSERT_EQ(store::flow_frame_count(run), 6u);
+  const auto triangles = [&](std::size_t k) {
+    return std::get<std::vector<std::int64_t>>(store::read_flow_frame(run, k).triangles.at(0).values);
+  };
+  EXPECT_NE(triangles(0), triangles(5)) << "a new mesh was made on the way";
+  const simulation::FlowRecord last = store::read_flow_series(run).back();
+  EXPECT_GT(last.meshes, 1);
+  EXPECT_NEAR(last.pile_depth, 0.8 + 0.2 / (0.2 * std::numbers::pi) * 2, 1e-9) << "after half a period";
+}
+
+TEST_F(BasinJob, ThatDivergesIsKeptWithItsReasonItsLastFrameAndItsSeries) {
+  place.write("water.json", R"({"study": "steep", "record": {"interval": 0.05},
+    "base": {"basin": {"surface": {"scheme": "galerkin", "initial": {"cosine": {"amplitude": 0.1}}},
+      "mesh": {"pattern": {"structured": {"columns": 16, "rows": 4}}}, "time": {"step": 0.05, "duration": 20}}}})");
+  const Finished finished = place.run({"water.json"});
+  EXPECT_EQ(finished.exit_code, 1) << finished.error;
+  EXPECT_THAT(finished.error, HasSubstr("diverged"));
+  const store::Manifest manifest = result();
+  EXPECT_EQ(manifest.result.outcome, simulation::Outcome::diverged);
+  EXPECT_THAT(manifest.result.reason, HasSubstr("t = "));
+  const fs::path run = run_in(place.results());
+  EXPECT_TRUE(store::verify(run).empty());
+  const auto records = store::read_flow_series(run);
+  ASSERT_GT(records.size(), 1u);
+  ASSERT_EQ(store::flow_frame_count(run), 2u) << "the start, and the last good state";
+  EXPECT_EQ(store::read_flow_frame(run, 1).time, records.back().time);
+  EXPECT_TRUE(fs::exists(run / "checkpoint" / "a.h5"));
+  EXPECT_EQ(place.run({"figure", "mesh", manifest.header.case_id.substr(0, 10)}).exit_code, 0);
 }
 
 TEST_F(BasinJob, WhatIsWrongIsToldAtOnceAndNothingIsWritten) {
