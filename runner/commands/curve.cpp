@@ -1,10 +1,11 @@
-#include "runner/present/curve.h"
+#include "runner/present/series_figure.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "runner/commands/command.h"
@@ -77,6 +78,21 @@ void write(const Found& found, const std::vector<std::string>& columns, bool ban
   bands ? present::write_bands(found.sources, out) : present::write_curves(found.sources, found.series, columns, out);
 }
 
+/// The columns as a picture, the first of them as its abscissa.
+void draw(const Found& found, const std::vector<std::string>& columns, const std::string& title,
+          const std::string& svg) {
+  if (columns.size() < 2) throw UsageError("--out: a picture needs a column over another one");
+  if (columns.size() > 1 + present::kMostPanels)
+    throw UsageError(fmt::format("--out: a picture has at most {} columns; name them with --of", present::kMostPanels));
+  const auto figure = present::series_figure(title, found.sources, found.series, columns);
+  try {
+    present::draw(figure, svg);
+  } catch (const store::StoreError& error) {
+    throw UsageError(error.what());
+  }
+  fmt::print("{}\n", svg);
+}
+
 int curve(const CurveArguments& arguments) {
   if (arguments.bands && arguments.study.empty())
     throw UsageError("--bands needs a STUDY: its labels say which runs are packings of the same case");
@@ -94,6 +110,11 @@ int curve(const CurveArguments& arguments) {
     write(found, columns, arguments.bands, stdout);
     return execute::kDone;
   }
+  if (std::filesystem::path(arguments.out).extension() == ".svg") {
+    if (arguments.bands) throw UsageError("--bands are CSV: the picture that a study ends with shows them");
+    draw(found, columns, study.empty() ? "All runs" : study, arguments.out);
+    return execute::kDone;
+  }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(arguments.out.c_str(), "w"), std::fclose);
   if (!file) throw UsageError(fmt::format("{} cannot be written: {}", arguments.out, std::strerror(errno)));
   write(found, columns, arguments.bands, file.get());
@@ -104,7 +125,7 @@ int curve(const CurveArguments& arguments) {
 
 void add_curve(CLI::App& app, Call& call) {
   static CurveArguments arguments;
-  CLI::App* command = app.add_subcommand("curve", "Write the series of runs as CSV: a row per record");
+  CLI::App* command = app.add_subcommand("curve", "Write the series of runs as CSV, a row per record, or as a picture");
   command->add_option("STUDY", arguments.study, "Name or file of a study; default: every run");
   add_where_option(*command, arguments.where);
   command
@@ -115,7 +136,8 @@ void add_curve(CLI::App& app, Call& call) {
       ->delimiter(',');
   command->add_option("--against", arguments.against, "Column before those; default: of drives depth, of basins time")
       ->type_name("NAME");
-  command->add_option("--out", arguments.out, "File to write; default: standard output")->type_name("FILE");
+  command->add_option("--out", arguments.out, "File to write: CSV, or .svg for a picture; default: standard output")
+      ->type_name("FILE");
   command->add_flag("--bands", arguments.bands,
                     "A row per case and 0.05 m of depth: n packings, mean tip resistance and its 95 % interval");
   add_store_option(*command, arguments.root);
@@ -124,6 +146,7 @@ void add_curve(CLI::App& app, Call& call) {
       "  runner curve tip_shape --out curves.csv\n"
       "  runner curve density --bands --out bands.csv\n"
       "  runner curve wave --of kinetic_energy,potential_energy --against time\n"
+      "  runner curve wave --out wave.svg\n"
       "  runner curve velocity --where \"pile.driving.constant.speed < 0.3\" | head");
   command->callback([&call] { call = [] { return curve(arguments); }; });
 }

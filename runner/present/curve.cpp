@@ -44,19 +44,24 @@ std::vector<Column> all_columns(Series series) {
   return series == Series::grains ? all_columns<simulation::Record>() : all_columns<simulation::FlowRecord>();
 }
 
-/// A line of CSV per record, each behind the same prefix.
+/// Where a column stands among all of them.
+std::size_t place_of(Series series, const std::string& name) {
+  const std::vector<Column> known = all_columns(series);
+  const auto found = std::ranges::find(known, name, &Column::name);
+  if (found == known.end()) throw std::logic_error("a series has no column " + name);
+  return static_cast<std::size_t>(found - known.begin());
+}
+
 template <class R>
-std::string lines_of(const std::vector<R>& records, const std::vector<std::size_t>& places, const std::string& prefix) {
-  std::string lines;
+std::vector<std::vector<double>> chosen(const std::vector<R>& records, const std::vector<std::size_t>& places) {
+  std::vector<std::vector<double>> values(places.size());
   std::vector<double> row;
   for (const R& record : records) {
     row.clear();
     columns([&](const char*, const char*, const char*, double value) { row.push_back(value); }, record);
-    lines += prefix;
-    for (const std::size_t place : places) lines += fmt::format(",{}", row[place]);
-    lines += "\n";
+    for (std::size_t c = 0; c < places.size(); ++c) values[c].push_back(row[places[c]]);
   }
-  return lines;
+  return values;
 }
 
 }  // namespace
@@ -65,6 +70,18 @@ std::vector<std::string> column_names(Series series) {
   std::vector<std::string> names;
   for (const Column& column : all_columns(series)) names.push_back(column.name);
   return names;
+}
+
+std::string unit_of(Series series, const std::string& column) {
+  return all_columns(series)[place_of(series, column)].unit;
+}
+
+std::vector<std::vector<double>> read_columns(const CurveSource& source, Series series,
+                                              const std::vector<std::string>& columns) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : columns) places.push_back(place_of(series, name));
+  return series == Series::grains ? chosen(store::read_series(source.run_folder), places)
+                                  : chosen(store::read_flow_series(source.run_folder), places);
 }
 
 void write_curves(const std::vector<CurveSource>& sources, Series series, const std::vector<std::string>& columns,
@@ -77,22 +94,20 @@ void write_curves(const std::vector<CurveSource>& sources, Series series, const 
   for (std::size_t i = 0; i < parameters.columns.size(); ++i) {
     header += "," + csv_heading(parameters.columns[i], parameters.units[i]);
   }
-  const std::vector<Column> known = all_columns(series);
-  std::vector<std::size_t> places;
-  for (const std::string& name : columns) {
-    const auto found = std::ranges::find(known, name, &Column::name);
-    if (found == known.end()) throw std::logic_error("a series has no column " + name);
-    places.push_back(static_cast<std::size_t>(found - known.begin()));
-    header += "," + csv_heading(found->name, found->unit);
-  }
+  for (const std::string& name : columns) header += "," + csv_heading(name, unit_of(series, name));
   write(out, header + "\n");
 
   for (std::size_t k = 0; k < sources.size(); ++k) {
     std::string prefix = sources[k].case_id.substr(0, 10) + "," + sources[k].run;
     for (const store::Cell& cell : parameters.rows[k]) prefix += "," + cell_text(cell);
-    const auto& folder = sources[k].run_folder;
-    write(out, series == Series::grains ? lines_of(store::read_series(folder), places, prefix)
-                                        : lines_of(store::read_flow_series(folder), places, prefix));
+    const std::vector<std::vector<double>> values = read_columns(sources[k], series, columns);
+    std::string lines;
+    for (std::size_t i = 0; i < values.front().size(); ++i) {
+      lines += prefix;
+      for (const auto& column : values) lines += fmt::format(",{}", column[i]);
+      lines += "\n";
+    }
+    write(out, lines);
   }
   if (std::fflush(out) != 0) write(out, "");
 }

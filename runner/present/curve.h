@@ -24,6 +24,13 @@ enum class Series { grains, water };
 /// The names of a series' columns, in their order.
 std::vector<std::string> column_names(Series series);
 
+/// The unit of a column. Throws std::logic_error when there is none of that name.
+std::string unit_of(Series series, const std::string& column);
+
+/// The values of some columns in all records of a run, column by column. Throws store::StoreError.
+std::vector<std::vector<double>> read_columns(const CurveSource& source, Series series,
+                                              const std::vector<std::string>& columns);
+
 /// Writes CSV: "case", "run", the labels, then the columns of the records in the order in which they are named, units
 /// in the header. One run is in memory at a time. Throws store::StoreError when a series cannot be read or the file not
 /// be written.

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "runner/present/gnuplot.h"
+#include "runner/present/thinning.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::present {
@@ -21,23 +22,11 @@ constexpr std::size_t kTitleCharacters = 66;
 
 constexpr std::string_view kBandAlpha = "c4";  // nearly transparent: two bands may lie over each other
 
-constexpr std::size_t kMostPoints = 2400;  // of one faint line: about three per pixel of its height
-
-/// At most kMostPoints points of a curve: of every stretch, its lowest and its highest value, in their order.
-ResistanceCurve thinned(const ResistanceCurve& curve) {
-  const std::size_t count = curve.depth.size();
-  if (count <= kMostPoints) return curve;
-  const std::size_t stretch = (2 * count + kMostPoints - 1) / kMostPoints;
+ResistanceCurve thinned_curve(const ResistanceCurve& curve) {
   ResistanceCurve result;
-  for (std::size_t first = 0; first < count; first += stretch) {
-    const auto begin = curve.resistance.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = curve.resistance.begin() + static_cast<std::ptrdiff_t>(std::min(count, first + stretch));
-    auto [low, high] = std::minmax_element(begin, end);
-    if (high < low) std::swap(low, high);
-    for (const auto value : {low, high}) {
-      result.depth.push_back(curve.depth[static_cast<std::size_t>(value - curve.resistance.begin())]);
-      result.resistance.push_back(*value);
-    }
+  for (const std::size_t i : thinned(curve.resistance)) {
+    result.depth.push_back(curve.depth[i]);
+    result.resistance.push_back(curve.resistance[i]);
   }
   return result;
 }
@@ -192,7 +181,7 @@ std::string gnuplot_script(const Figure& figure) {
       if (replicated) {
         blocks += data_block(name, bin_means(group.packings[p]));
       } else {
-        const ResistanceCurve raw = thinned(group.packings[p]);
+        const ResistanceCurve raw = thinned_curve(group.packings[p]);
         blocks += data_block(name, raw.depth, raw.resistance);
       }
       faint += fmt::format("  ${} using 1:2 axes x2y1 with lines lw {} lc rgb '#{}{}' notitle, \\\n", name,

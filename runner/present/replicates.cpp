@@ -88,6 +88,16 @@ void add_columns(Grouped& grouped, const Table& each, const std::vector<Role>& r
 
 }  // namespace
 
+std::string legend_text(const Labels& labels) {
+  std::vector<std::string> words;
+  for (const auto& [path, value] : labels) {
+    if (path == kSeed) continue;
+    const auto last = path.find_last_of('.');
+    words.push_back(fmt::format("{} {}", last == std::string::npos ? path : path.substr(last + 1), value));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 Grouped group(const Table& each, const std::vector<Role>& roles, double level) {
   Grouped grouped;
   grouped.level = level;

@@ -49,4 +49,7 @@ inline constexpr const char* kOnePacking =
     "one packing: no interval. Another packing of the same preparation moves the mean by a few per cent; "
     "`--seeds N` repeats every case on N packings.";
 
+/// "reynolds 24, tip flat": what a case is called in a legend; what makes packings of it differ is left out.
+std::string legend_text(const Labels& labels);
+
 }  // namespace seapile::present

@@ -47,17 +47,6 @@ std::vector<Headline> headlines_of(const std::vector<CaseResult>& cases) {
 
 bool is_water(const CaseResult& result) { return result.kind != SceneKind::grains; }
 
-/// What makes packings of the same case differ is left out.
-std::string label_without_seed(const Labels& labels) {
-  std::vector<std::string> words;
-  for (const auto& [path, value] : labels) {
-    if (path == kSeed) continue;
-    const auto last = path.find_last_of('.');
-    words.push_back(fmt::format("{} {}", last == std::string::npos ? path : path.substr(last + 1), value));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
 Cell metric(const std::optional<store::Manifest>& manifest, const std::string& name) {
   if (!manifest) return {};
   const auto& metrics = manifest->result.metrics;
@@ -110,7 +99,7 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
   figure.title = title;
   for (const CaseResult& result : cases) {
     if (!is_completed(result, "drive")) continue;
-    const std::string label = label_without_seed(result.labels);
+    const std::string label = legend_text(result.labels);
     auto group = std::ranges::find(figure.groups, label, &CurveGroup::label);
     if (group == figure.groups.end()) group = figure.groups.insert(figure.groups.end(), CurveGroup{label, {}});
     group->packings.push_back(read_resistance(result.run_folder));
@@ -124,7 +113,7 @@ SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseRes
     if (result.kind != SceneKind::jet || !is_completed(result, "flow")) continue;
     std::optional<SurfaceCurve> curve = read_surface(result.run_folder);
     if (!curve) continue;
-    curve->label = label_without_seed(result.labels);
+    curve->label = legend_text(result.labels);
     figure.curves.push_back(std::move(*curve));
   }
   return figure;

@@ -93,6 +93,15 @@ TEST_F(BasinCommands, ACurveIsAnyColumnOverAnyColumn) {
   EXPECT_THAT(place->run({"curve", "--where", "kind = flow"}).out, HasSubstr("volume_error"));
 }
 
+TEST_F(BasinCommands, ACurveIsAPictureToo) {
+  EXPECT_EQ(place->run({"curve", "wave", "--out", "wave.svg"}).out, "wave.svg\n");
+  const std::string svg = content(place->folder() / "wave.svg");
+  EXPECT_TRUE(svg.find("</svg>") != std::string::npos);
+  for (const char* text : {"volume_error", "wave (m)", "time (s)", "viscosity 0.001 Pa s", "viscosity 0.1 Pa s"})
+    EXPECT_THAT(svg, HasSubstr(text));
+  EXPECT_EQ(place->run({"curve", "small", "--of", "tip_resistance", "--out", "small.svg"}).exit_code, 0);
+}
+
 TEST_F(BasinCommands, EveryFigureIsAWholePicture) {
   for (const char* kind : {"mesh", "velocity", "quality"}) {
     const Finished drawn = place->run({"figure", kind, ids[0], ids[1], "--time", "0,0.1"});
@@ -124,6 +133,9 @@ TEST_F(BasinCommands, WhatDoesNotFitEndsWithTwoAndOneLineAndWritesNothing) {
       {{"curve", "wave", "--of", "wavy", "--out", "c.svg"}, "there is no column \"wavy\"; there are time, volume,"},
       {{"curve", "--out", "c.svg"}, "drives and basins have no columns in common"},
       {{"curve", "wave", "--bands", "--out", "c.svg"}, "basins have no packings"},
+      {{"curve", "wave", "--of", "all", "--out", "c.svg"}, "a picture has at most 4 columns"},
+      {{"curve", "wave", "--of", "time", "--out", "c.svg"}, "a picture needs a column over another one"},
+      {{"curve", "small", "--bands", "--out", "c.svg"}, "--bands are CSV"},
   };
   for (const auto& [arguments, word] : wrong) {
     const Finished finished = place->run(arguments);
