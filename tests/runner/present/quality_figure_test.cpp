@@ -40,6 +40,15 @@ TEST(QualityFigure, HalfSquaresAreInTheirBins) {
   EXPECT_EQ(panel.title, "basin.viscosity=0.1 Pa s, t = 2.5 s");
 }
 
+// Rounding leaves some of their angles a hair below 45 degrees.
+TEST(QualityFigure, TurningAMeshMovesNoTriangleIntoAnotherBin) {
+  const QualityPanel panel = panel_of(stretched([](Vec2 p) {
+    return Vec2{std::cos(0.3) * p.x - std::sin(0.3) * p.y, std::sin(0.3) * p.x + std::cos(0.3) * p.y};
+  }));
+  EXPECT_NEAR(panel.angle[9], 1, 1e-12);
+  EXPECT_NEAR(panel.shape[17], 1, 1e-12);
+}
+
 // Half rectangles of 4 by 1: q = 4 sqrt(3) 2/(16 + 1 + 17) = 0.408, atan(1/4) = 14.04 degrees.
 TEST(QualityFigure, HalfRectanglesAreInLowerBinsAndAreCounted) {
   const QualityPanel panel = panel_of(stretched([](Vec2 p) { return Vec2{4 * p.x, p.y}; }));

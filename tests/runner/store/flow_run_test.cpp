@@ -50,6 +50,7 @@ TEST_F(Flow, WithoutRecordsHasNoSeries) {
   sample::write_flow(scratch_.path());
   EXPECT_EQ(names(folder_), (std::set<std::string>{"flow.vtkhdf", "flow.xdmf", "manifest.json", "surface.h5"}));
   EXPECT_TRUE(read_series(folder_).empty());
+  EXPECT_TRUE(read_flow_series(folder_).empty());
   EXPECT_EQ(read_manifest(folder_).records, 0U);
 }
 
