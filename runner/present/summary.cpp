@@ -27,7 +27,8 @@ constexpr Headline kDriveHeadlines[] = {{"solid fraction", "-", "solid_fraction"
 constexpr Headline kJetHeadlines[] = {{"swell ratio", "-", "swell_ratio", false},
                                       {"surface leak", "-", "surface_leak", false},
                                       {"mass defect", "-", "mass_defect", false}};
-constexpr Headline kBasinHeadlines[] = {{"volume drift", "-", "volume_drift", false},
+constexpr Headline kBasinHeadlines[] = {{"reached", "s", "reached", false},
+                                        {"volume drift", "-", "volume_drift", false},
                                         {"lowest q", "-", "lowest_shape", false},
                                         {"meshes", "-", "meshes", false}};
 constexpr Headline kWaterHeadlines[] = {{"vertices", "-", "vertices", false}};

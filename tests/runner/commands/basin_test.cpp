@@ -39,7 +39,7 @@ std::vector<std::string> BasinCommands::ids;
 
 TEST_F(BasinCommands, AStudyEndsWithItsNumbersAndSaysNothingOfPackings) {
   const std::string out = place->run({"wave.json"}).out;
-  for (const char* word : {"volume drift", "lowest q", "meshes", "completed"}) EXPECT_THAT(out, HasSubstr(word));
+  for (const char* word : {"reached", "volume drift", "lowest q", "meshes", "completed"}) EXPECT_THAT(out, HasSubstr(word));
   EXPECT_THAT(out, Not(HasSubstr("packing")));
   EXPECT_THAT(out, Not(HasSubstr("swell")));
   EXPECT_FALSE(fs::exists(place->results() / "figures" / "wave_surface.svg")) << "a picture of jets";
