@@ -253,7 +253,8 @@ class Expander {
     }
   }
 
-  /// A frame is fine when one case reaches its depth or its time. Of the default frames only those are asked for.
+  /// A frame is fine when one case reaches its depth or its time. Of the default frames only those are asked for. The
+  /// command line may end all cases before a frame of the study.
   void check_record() {
     const bool default_frames = !is_written(grammar_.record_text, {"frames"});
     std::vector<double> reached;
@@ -268,6 +269,8 @@ class Expander {
       if (of_a_time && entry.second < basins_) continue;
       auto problem = entry.first;
       problem.pointer = written_at(grammar_.record_text, split_pointer(inside));
+      const bool out_of_reach = (of_a_frame || of_a_time) && problem.what != scene::kTwice;
+      if (out_of_reach && !grammar_.set.empty() && !problem.pointer.starts_with("--set")) continue;
       collector_.add(problem);
     }
     if (default_frames) result_.record.frames = reached;

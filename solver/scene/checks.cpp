@@ -7,6 +7,8 @@
 #include <set>
 #include <variant>
 
+#include "solver/scene/validate.h"
+
 namespace seapile::scene {
 namespace {
 
@@ -90,7 +92,7 @@ void check_frames(const std::vector<double>& frames, double most, const FrameWor
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::string pointer = list + "/" + std::to_string(i);
     if (frames[i] > most) problems.push_back({pointer, words.beyond, "at most " + text(most, words.unit), ""});
-    if (!seen.insert(frames[i]).second) problems.push_back({pointer, "is there twice", "each " + one + " once", ""});
+    if (!seen.insert(frames[i]).second) problems.push_back({pointer, kTwice, "each " + one + " once", ""});
   }
 }
 

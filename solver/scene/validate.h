@@ -16,4 +16,7 @@ base::Problems validate(const SceneSpec& scene, std::optional<double> bed_height
 /// Relations between what is recorded and the scene, each problem with its JSON pointer into the record ("/frames/2").
 base::Problems validate(const RecordSpec& record, const SceneSpec& scene);
 
+/// What a problem says of a frame that stands in its list already.
+inline constexpr const char* kTwice = "is there twice";
+
 }  // namespace seapile::scene

@@ -83,6 +83,14 @@ TEST_F(CommandLine, SeedsReplaceTheReplicates) {
   EXPECT_EQ(study("", {{}, 1}).cases.size(), 1u);
 }
 
+TEST_F(CommandLine, MayEndARunBeforeAFrameOfTheStudy) {
+  const std::string driven = R"("base": {"pile": {"depth": 1}}, "record": {"frames": [0.2, 0.8]})",
+                    water = R"("base": {"basin": {}}, "record": {"times": [0.5]})";
+  EXPECT_TRUE(problems(driven, {{"pile.depth=0.5"}, {}}).empty());
+  EXPECT_TRUE(problems(water, {{"basin.time.duration=0.1"}, {}}).empty());
+  EXPECT_THAT(problem({{"record.times=[2]"}, {}}, water), HasSubstr("--set record.times/0: is after the end of the run"));
+}
+
 TEST_F(CommandLine, AProblemNamesTheOption) {
   EXPECT_EQ(problem({{"pile.depht=1"}, {}}),
             "s: --set pile.depht: is no path: pile has no \"depht\"; allowed: radius, friction, tip, driving, depth, "
