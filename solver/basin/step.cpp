@@ -150,8 +150,10 @@ class Way {
   void correct_volume(std::span<const base::Vec2> now) {
     fluid::FreeSurface& top = basin_.top;
     const bool implicit = second_ && top.scheme == fluid::KinematicScheme::upwinded;
+    // Explicit schemes step from the last level to the next, over which the pile moves by what its places say.
+    const double entered = basin_.spec.pile ? 2 * basin_.spec.pile->radius * (basin_.past_tip[0] - tip_) : 0;
     const double wanted =
-        implicit ? area_below(before()) + displaced() / rate() : area_below(levels_[0].height) + displaced() * dt_;
+        implicit ? area_below(before()) + displaced() / rate() : area_below(levels_[0].height) + entered;
     constexpr double kLift = 1;  // [m/s]
     const std::vector<double> lifted = fluid::advanced_height(top, levels_, dt_, kLift, now);
     const double share = (wanted - area_below(top.height)) / (area_below(lifted) - area_below(top.height));
