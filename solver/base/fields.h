@@ -8,8 +8,8 @@
 //
 // and the JSON reader, the canonical writer, the query's column names and the documentation all call it with a
 // visitor of their own. A member may be: double, std::int64_t, std::uint64_t, bool, std::string, an enum with
-// EnumNames, std::vector<double>, std::optional<T>, a std::variant of structs that each have a `kName`, OnlyNull,
-// or another spec.
+// EnumNames, std::vector<double>, std::optional<T>, a std::variant of structs that each have a `kName`, or another
+// spec.
 #pragma once
 
 #include <concepts>
@@ -66,10 +66,5 @@ concept SameAs = std::same_as<std::remove_cvref_t<T>, Spec>;
 /// The names of an enum's values, in their order; specialised beside each enum as `static constexpr const char* values[]`.
 template <class Enum>
 struct EnumNames;
-
-/// A member that can only be null: a part of the scene that this version does not build.
-struct OnlyNull {
-  friend bool operator==(OnlyNull, OnlyNull) = default;
-};
 
 }  // namespace seapile::base

@@ -11,6 +11,7 @@
 #include "solver/fluid/jet_spec.h"
 #include "solver/grains/grains_spec.h"
 #include "solver/pile/pile_spec.h"
+#include "solver/scene/fluid_spec.h"
 
 namespace seapile::scene {
 
@@ -58,7 +59,7 @@ void fields(auto& visit, SameAs<BedSpec> auto& bed) {
 struct SceneSpec {
   BedSpec bed;
   std::optional<pile::PileSpec> pile;  ///< absent: the bed alone
-  base::OnlyNull fluid;                ///< only dry scenes yet
+  std::optional<FluidSpec> fluid;      ///< absent: dry
   grains::ContactSpec contact;         ///< the solver while driving
   std::optional<fluid::JetSpec> jet;   ///< present: the scene is this jet, and there is neither bed nor pile
   std::optional<basin::BasinSpec> basin;  ///< present: the scene is this basin of water, and there is no bed
@@ -67,7 +68,7 @@ struct SceneSpec {
 void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
   visit(part("bed", "the bed, a case of its own"), scene.bed);
   visit(part("pile", "the driven pile; null: the bed alone"), scene.pile);
-  visit(part("fluid", "null: dry"), scene.fluid);
+  visit(part("fluid", "the fluid between and above the grains; null: dry"), scene.fluid);
   visit(part("contact", "the contact solver while driving"), scene.contact);
   visit(later(part("jet", "a jet from a die, instead of all the others; null: none")), scene.jet);
   visit(later(part("basin", "a basin of water without grains, instead of all the others; null: none")), scene.basin);

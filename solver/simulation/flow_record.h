@@ -1,4 +1,4 @@
-// One row of a basin's time series.
+// One row of the water's time series: of a basin, or of what stands between the grains of a saturated bed.
 #pragma once
 
 #include <limits>
@@ -31,6 +31,17 @@ struct FlowRecord {
   double vertices = 0;            ///< of the mesh
   double meshes = 1;              ///< made so far, the first one included
   double iterations = 0;          ///< corrections of the step
+  // Of a saturated bed, means over the fluid's steps since the record before; pressures are those above the hydrostatic one.
+  double tip_force_x = kAbsent, tip_force_y = kAbsent;        ///< of the fluid on the tip, pores and grains alike [N/m]
+  double sleeve_force_x = kAbsent, sleeve_force_y = kAbsent;  ///< of the fluid on the sleeve [N/m]
+  double face_pressure = kAbsent;      ///< u1: mean over the tip's face [Pa]
+  double shoulder_pressure = kAbsent;  ///< u2: behind the tip, mean of both sides [Pa]
+  double sleeve_pressure = kAbsent;    ///< u3: on the sleeve, a pile's width above the shoulder [Pa]
+  double grain_force_x = kAbsent, grain_force_y = kAbsent;  ///< of the fluid on all grains, without buoyancy [N/m]
+  double lowest_porosity = kAbsent;  ///< of the vertices, before it is cut off [-]
+  double clipped_volume = kAbsent;   ///< of the grains where the porosity is cut off [m2]
+  double immersed = kAbsent;         ///< share of the grains' area that is in the fluid [-]
+  double element_ratio = kAbsent;    ///< smallest edge of the mesh over the largest diameter of the grains [-]
   friend bool operator==(const FlowRecord&, const FlowRecord&) = default;
 };
 
@@ -63,6 +74,21 @@ void columns(auto&& visit, base::SameAs<FlowRecord> auto& r) {
   visit("vertices", "-", "vertices of the mesh", r.vertices);
   visit("meshes", "-", "meshes made so far, the first one included", r.meshes);
   visit("iterations", "-", "corrections of the step", r.iterations);
+  visit("tip_force_x", "N/m", "horizontal force of the fluid on the tip, saturated bed", r.tip_force_x);
+  visit("tip_force_y", "N/m", "vertical force of the fluid on the tip, without the hydrostatic one, positive up",
+        r.tip_force_y);
+  visit("sleeve_force_x", "N/m", "horizontal force of the fluid on the sleeve, saturated bed", r.sleeve_force_x);
+  visit("sleeve_force_y", "N/m", "vertical force of the fluid on the sleeve, positive up", r.sleeve_force_y);
+  visit("face_pressure", "Pa", "u1: excess pore pressure, mean over the tip's face", r.face_pressure);
+  visit("shoulder_pressure", "Pa", "u2: excess pore pressure behind the tip, mean of both sides", r.shoulder_pressure);
+  visit("sleeve_pressure", "Pa", "u3: excess pore pressure on the sleeve, a pile's width above the shoulder",
+        r.sleeve_pressure);
+  visit("grain_force_x", "N/m", "horizontal force of the fluid on all grains", r.grain_force_x);
+  visit("grain_force_y", "N/m", "vertical force of the fluid on all grains, without buoyancy", r.grain_force_y);
+  visit("lowest_porosity", "-", "smallest porosity of a vertex, before it is cut off", r.lowest_porosity);
+  visit("clipped_volume", "m2", "area of the grains that the cut-off porosity leaves out", r.clipped_volume);
+  visit("immersed", "-", "share of the grains' area that is in the fluid", r.immersed);
+  visit("element_ratio", "-", "smallest edge of the mesh over the largest diameter of a grain", r.element_ratio);
 }
 
 }  // namespace seapile::simulation

@@ -89,7 +89,7 @@ std::vector<Part> parts(const scene::SceneSpec& scene) {
 
 RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed,
               const Execution& execution, const std::vector<Array>& resume_from,
-              const std::vector<Record>& records_so_far, const RunHooks& hooks) {
+              const RecordsSoFar& so_far, const RunHooks& hooks) {
   if (!scene.pile) throw std::invalid_argument("run: the scene has no pile");
   Simulation sim = build(scene, bed, execution);
   if (!resume_from.empty()) restore(sim, resume_from);
@@ -100,7 +100,7 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   const double now = sim.clock.time(), half = 1e-6 * sim.clock.dt;  // what rounding may do
   while (next_frame < frames.size() && frames[next_frame].end <= now - half) ++next_frame;
 
-  std::vector<Record> records = records_so_far;
+  std::vector<Record> records = so_far.records;
   std::vector<ForceWindow> windows;  // of the frames whose window is open, from next_frame on
   std::optional<Trial> trial;
   RunResult result;

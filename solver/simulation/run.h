@@ -10,6 +10,8 @@
 #include "solver/scene/spec.h"
 #include "solver/simulation/array.h"
 #include "solver/simulation/execution.h"
+#include "solver/simulation/flow_frame.h"
+#include "solver/simulation/flow_record.h"
 #include "solver/simulation/frame.h"
 #include "solver/simulation/record.h"
 
@@ -76,6 +78,9 @@ Bed prepare_bed(const scene::BedSpec& bed, const std::vector<Array>& given, cons
 struct RunHooks {
   std::function<void(const Record&)> record;
   std::function<void(const Frame&)> frame;
+  /// Of the fluid, with each record and each frame; never called when the scene is dry.
+  std::function<void(const FlowRecord&)> flow_record;
+  std::function<void(const FlowFrame&)> flow_frame;
   std::function<void(const Progress&)> progress;
   /// Asked after each record: true seals a checkpoint now.
   std::function<bool()> checkpoint_due;
@@ -97,10 +102,16 @@ struct RunResult {
   std::vector<ProfileEntry> profile;
 };
 
+/// The records before a checkpoint; those of the fluid are as many, or none when the scene is dry.
+struct RecordsSoFar {
+  std::vector<Record> records;
+  std::vector<FlowRecord> flow_records;
+};
+
 /// Drives the pile of `scene` into `bed`. `resume_from`: a checkpoint's state, or empty to start. The records and frames
-/// handed out after a resume are those after the checkpoint, bit for bit. `records_so_far` are the records before the
-/// checkpoint (the metrics need them).
+/// handed out after a resume are those after the checkpoint, bit for bit. `so_far`: the records before the checkpoint
+/// (the metrics need them).
 RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed, const Execution& execution,
-              const std::vector<Array>& resume_from, const std::vector<Record>& records_so_far, const RunHooks& hooks);
+              const std::vector<Array>& resume_from, const RecordsSoFar& so_far, const RunHooks& hooks);
 
 }  // namespace seapile::simulation
