@@ -1,16 +1,20 @@
 // Momentum and mass of a fluid between grains, on one triangle of a moving mesh: what the solver assembles.
 //
-//   rho phi (dv/dt + (v - w).grad v) = -phi grad p + div(mu phi (grad v + grad v^T)) - beta u + s      momentum
-//   dphi/dt + div u = 0,   u = phi v                                                                    mass
+//   rho phi (dv/dt + (v - w).grad v) = -phi grad p + div(mu phi (grad v + grad v^T)) - beta (u - u_g) + s   momentum
+//   dphi/dt + div u + div q = 0,   u = phi v,   q = -kappa grad p + chi (u - u_g)                            mass
 //
 // with phi the porosity, v the interstitial and u the superficial velocity, w the velocity of the mesh, d/dt at a fixed
 // vertex (in the mass equation dphi/dt at a fixed place: dphi/dt - w.grad phi), p the pressure without the hydrostatic
-// one, beta a drag coefficient, s a source. It is the thesis' (5.1) and (5.2) (its div(u u / phi) is phi v.grad v with
+// one, beta a drag coefficient, u_g the velocity of what drags (phi times that of the grains), s a source. q is the
+// grains' answer within the step: what pressure and drag of this step add to the volume that the grains carry
+// (solver/coupling/exchange.h); without it a light, dense bed and the water take turns in pushing each other, the more
+// the shorter the step. It is the thesis' (5.1) and (5.2) (its div(u u / phi) is phi v.grad v with
 // the mass equation), where the grains' pressure force (1 - phi) grad p stands inside (docs/formulation.md), and the
 // viscous stress is mu phi (grad v + grad v^T), not doubled (a slip of the thesis: 2 mu phi d with d the full sum).
 //
 // Scheme: linear u and p on triangles. Galerkin terms, with v interpolated between its values u/phi at the vertices,
-// and
+// the drag's Galerkin term lumped at the vertices, so that what each grain gives is the sum of what the vertices
+// around it get, and
 //   PSPG   phi tau (grad q).R       makes equal orders stable             Tezduyar et al. 1992
 //   SUPG   rho phi tau ((v-w).grad w).R                                   Brooks, Hughes 1982
 //   LSIC   tau_L (div w)(dphi/dt + div u)                                 Tezduyar, Osawa 2000
@@ -50,6 +54,9 @@ struct ElementInput {
   std::array<std::array<Real, 2>, 3> history;        ///< dv/dt = rate v + history [m/s2]
   std::array<std::array<Real, 2>, 3> source;         ///< s [N/m3]
   std::array<Real, 3> drag;                          ///< beta [kg/m3/s]
+  std::array<std::array<Real, 2>, 3> carried;        ///< u_g [m/s]
+  std::array<Real, 3> mobility;                      ///< kappa [m3 s/kg]
+  std::array<Real, 3> response;                      ///< chi [-]
   double rate = 0;                                   ///< [1/s], of the time scheme; 0: steady
   double unsteadiness = 0;                           ///< s of the stabilisation [1/s]
 };
@@ -182,11 +189,17 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
 
     // The momentum residual R.
     const Real inertia = rho * phi;
-    const Scalar past_x = inertia * (in.rate * wx + here(component(in.history, 0)) + ax * dvx_dx + ay * dvx_dy) +
-                          beta * ux - here(component(in.source, 0));
-    const Scalar past_y = inertia * (in.rate * wy + here(component(in.history, 1)) + ax * dvy_dx + ay * dvy_dy) +
-                          beta * uy - here(component(in.source, 1));
-    const Scalar Rx = stable.tau * (past_x + phi * dp_dx - div_x), Ry = stable.tau * (past_y + phi * dp_dy - div_y);
+    const Scalar past_x = inertia * (in.rate * wx + here(component(in.history, 0)) + ax * dvx_dx + ay * dvx_dy) -
+                          here(component(in.source, 0));
+    const Scalar past_y = inertia * (in.rate * wy + here(component(in.history, 1)) + ax * dvy_dx + ay * dvy_dy) -
+                          here(component(in.source, 1));
+    const Scalar slip_x = ux - here(component(in.carried, 0)), slip_y = uy - here(component(in.carried, 1));
+    const Scalar Rx = stable.tau * (past_x + beta * slip_x + phi * dp_dx - div_x),
+                 Ry = stable.tau * (past_y + beta * slip_y + phi * dp_dy - div_y);
+
+    // The grains' answer, integrated by parts: none of them crosses the boundary.
+    const Real kappa = here(at_vertex(in.mobility)), chi = here(at_vertex(in.response));
+    const Scalar answer_x = chi * slip_x - kappa * dp_dx, answer_y = chi * slip_y - kappa * dp_dy;
 
     // phi grad p.w is integrated by parts, as the stress is: -p div(phi w).
     const Scalar body_x = past_x - p * dphi_dx, body_y = past_y - p * dphi_dy;
@@ -198,8 +211,17 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
       Scalar radial = N[i] * body_y + txy * bx[i] + syy * by[i] + along * Ry;
       if (axisymmetric) radial += N[i] * inverse_r * (hoop + dilation);
       residual[3 * i + 1] += volume * radial;
-      residual[3 * i + 2] += volume * (N[i] * continuity + phi * (bx[i] * Rx + by[i] * Ry));
+      residual[3 * i + 2] +=
+          volume * (N[i] * continuity + bx[i] * (phi * Rx - answer_x) + by[i] * (phi * Ry - answer_y));
     }
+  }
+
+  // Drag, lumped: N_i integrated over the triangle.
+  for (int i = 0; i < 3; ++i) {
+    Scalar weight = (1.0 / 6) * doubled;
+    if (axisymmetric) weight = weight * (0.25 * (y[0] + y[1] + y[2] + y[i]));
+    const Scalar lumped = in.drag[i] * weight;
+    for (int c = 0; c < 2; ++c) residual[3 * i + c] += lumped * (u[3 * i + c] - in.carried[i][c]);
   }
   return residual;
 }

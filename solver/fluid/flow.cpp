@@ -14,6 +14,9 @@ Flow at_rest(mesh::TriangleMesh mesh, const Properties& fluid) {
   flow.mesh_velocity.assign(vertices, {});
   flow.source.assign(vertices, {});
   flow.drag.assign(vertices, 0);
+  flow.carried.assign(vertices, {});
+  flow.mobility.assign(vertices, 0);
+  flow.response.assign(vertices, 0);
   return flow;
 }
 
@@ -33,6 +36,9 @@ ElementInput<double> input_of(const Flow& flow, const TimeScheme& scheme, std::s
     in.mesh_velocity[i] = {flow.mesh_velocity[v].x, flow.mesh_velocity[v].y};
     in.source[i] = {flow.source[v].x, flow.source[v].y};
     in.drag[i] = flow.drag[v];
+    in.carried[i] = {flow.carried[v].x, flow.carried[v].y};
+    in.mobility[i] = flow.mobility[v];
+    in.response[i] = flow.response[v];
     if (!scheme.history.empty()) in.history[i] = {scheme.history[v].x, scheme.history[v].y};
   }
   return in;

@@ -51,6 +51,9 @@ struct Flow {
   std::vector<base::Vec2> mesh_velocity;  ///< w [m/s], (vertices)
   std::vector<base::Vec2> source;         ///< s [N/m3], (vertices)
   std::vector<double> drag;               ///< beta [kg/m3/s], (vertices)
+  std::vector<base::Vec2> carried;        ///< u_g, the superficial velocity that drag leads to [m/s], (vertices)
+  std::vector<double> mobility;           ///< kappa, volume that a pressure gradient makes the grains carry [m3 s/kg]
+  std::vector<double> response;           ///< chi, volume that drag makes the grains carry, per slip [-], (vertices)
 
   double& u(std::int32_t vertex, Component component) { return unknown[3 * vertex + component]; }
   double u(std::int32_t vertex, Component component) const { return unknown[3 * vertex + component]; }

@@ -72,7 +72,8 @@ void pack(PackedFlow& packed, const Flow& flow, const TimeScheme& scheme) {
     const base::Vec2 history = scheme.history.empty() ? base::Vec2{} : scheme.history[v];
     packed.vertex[v] = {flow.mesh.position[v].x, flow.mesh.position[v].y, flow.porosity[v], flow.porosity_rate[v],
                         flow.mesh_velocity[v].x, flow.mesh_velocity[v].y, history.x,        history.y,
-                        flow.source[v].x,        flow.source[v].y,        flow.drag[v],     {}};
+                        flow.source[v].x,        flow.source[v].y,        flow.drag[v],     flow.carried[v].x,
+                        flow.carried[v].y,       flow.mobility[v],        flow.response[v], {}};
   }
   packed.triangles = static_cast<std::int32_t>(triangles);
   packed.corner.resize(3 * ((triangles + kPadding - 1) / kPadding * kPadding));

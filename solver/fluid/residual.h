@@ -24,7 +24,10 @@ struct alignas(64) VertexInput {
   double history_x, history_y;  ///< [m/s2]
   double source_x, source_y;    ///< s [N/m3]
   double drag;                  ///< beta [kg/m3/s]
-  double unused[5];
+  double carried_x, carried_y;  ///< u_g [m/s]
+  double mobility;              ///< kappa [m3 s/kg]
+  double response;              ///< chi [-]
+  double unused;
 };
 
 /// A flow and a time scheme, packed for the kernels. Invariant: belongs to one mesh; pack() again when anything but the

@@ -44,6 +44,10 @@ void add_triangles(const Properties& fluid, const PackedFlow& packed, const doub
         in.source[i][0].v[k] = from.source_x;
         in.source[i][1].v[k] = from.source_y;
         in.drag[i].v[k] = from.drag;
+        in.carried[i][0].v[k] = from.carried_x;
+        in.carried[i][1].v[k] = from.carried_y;
+        in.mobility[i].v[k] = from.mobility;
+        in.response[i].v[k] = from.response;
         for (int c = 0; c < 3; ++c) u[3 * i + c].v[k] = unknown[3 * vertex + c];
       }
     const std::array<Lanes, kUnknowns> part = element_residual<Lanes, Lanes>(fluid, in, x, y, u);

@@ -93,6 +93,9 @@ inline RandomFlow random_flow(mesh::TriangleMesh mesh, const Properties& fluid, 
     flow.mesh_velocity[v] = draw.vector(1);
     flow.source[v] = draw.vector(5);
     flow.drag[v] = draw(0, 10);
+    flow.carried[v] = {draw(-1, 1), draw(-1, 1)};
+    flow.mobility[v] = draw(0, 0.1);
+    flow.response[v] = draw(0, 0.5);
     random.scheme.history.push_back(draw.vector(20));
   }
   for (const mesh::BoundaryEdge& e : flow.mesh.boundary) {
