@@ -193,23 +193,20 @@ fluid::FreeSurface top_of(const BasinSpec& spec, const mesh::TriangleMesh& mesh)
 
 Domain domain_of(const BasinSpec& spec, const mesh::TriangleMesh& mesh, const fluid::FreeSurface& top, double tip) {
   mesh::MovingBoundary moving{top.vertex, {}, kBottom};
-  std::vector<std::uint8_t> of_pile(mesh.vertices(), 0);
+  std::vector<std::uint8_t> of_tip(mesh.vertices(), 0), of_sleeve(mesh.vertices(), 0);
   std::vector<std::int32_t> wetted, at_pile;
-  std::vector<std::uint8_t> of_tip(mesh.vertices(), 0);
   for (const mesh::BoundaryEdge& e : mesh.boundary) {
     if (e.tag != mesh::kPileTip && e.tag != mesh::kPileSleeve) continue;
-    for (const std::int32_t v : {e.from, e.to}) {
-      of_pile[v] = 1;
-      if (e.tag == mesh::kPileTip) of_tip[v] = 1;
-    }
+    for (const std::int32_t v : {e.from, e.to}) (e.tag == mesh::kPileTip ? of_tip : of_sleeve)[v] = 1;
   }
   for (std::size_t v = 0; v < mesh.vertices(); ++v) {
-    if (of_pile[v]) wetted.push_back(static_cast<std::int32_t>(v));
+    if (of_tip[v]) of_sleeve[v] = 0;
+    if (of_tip[v] || of_sleeve[v]) wetted.push_back(static_cast<std::int32_t>(v));
     if (of_tip[v]) moving.tip.push_back(static_cast<std::int32_t>(v));
   }
   std::ranges::sort(moving.tip, {}, [&](std::int32_t v) { return mesh.position[v].x; });
   for (std::size_t t = 0; t < mesh.triangles(); ++t)
-    if (std::ranges::any_of(mesh.triangle[t], [&](std::int32_t v) { return of_pile[v] != 0; }))
+    if (std::ranges::any_of(mesh.triangle[t], [&](std::int32_t v) { return of_tip[v] != 0 || of_sleeve[v] != 0; }))
       at_pile.push_back(static_cast<std::int32_t>(t));
   return {mesh.position,
           top.height,
@@ -217,7 +214,8 @@ Domain domain_of(const BasinSpec& spec, const mesh::TriangleMesh& mesh, const fl
           mesh::MeshMotion(mesh, moving, motion_of(spec.mesh.motion)),
           under(mesh, top.x),
           std::move(wetted),
-          std::move(of_pile),
+          std::move(of_tip),
+          std::move(of_sleeve),
           std::move(at_pile)};
 }
 

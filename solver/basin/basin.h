@@ -26,7 +26,8 @@ struct Domain {
   mesh::MeshMotion motion;               ///< from the reference places
   std::vector<Under> under;              ///< the surface above each vertex, (vertices)
   std::vector<std::int32_t> wetted;      ///< vertices on tip and sleeves
-  std::vector<std::uint8_t> of_pile;     ///< 1 for them, (vertices)
+  std::vector<std::uint8_t> of_tip;      ///< 1 for those on the tip, shoulders included, (vertices)
+  std::vector<std::uint8_t> of_sleeve;   ///< 1 for the others of them, (vertices)
   std::vector<std::int32_t> at_pile;     ///< triangles that touch them
 };
 
@@ -51,7 +52,7 @@ struct Basin {
   /// [m2/s].
   std::vector<std::vector<double>> past_flux = {};
   fluid::FlowSolver solver = {};
-  std::array<double, 2> pile_force{};  ///< of the water on the pile in the last step, without the hydrostatic one [N/m]
+  base::Vec2 tip_force = {}, sleeve_force = {};  ///< of the water in the last step, without the hydrostatic one [N/m]
   double volume_at_start = 0;          ///< of the water [m2]
   std::int64_t step = 0;               ///< steps done
   std::int64_t iterations = 0;         ///< corrections so far

@@ -18,8 +18,8 @@ std::vector<double> component_of(const std::vector<double>& unknown, int compone
   return values;
 }
 
-/// Takes the divergence out of velocities that were brought over: the flow of an instant, in which nothing moves but
-/// what pressure pushes. It is done twice, as stabilisation leaves a share of it the first time.
+/// Takes the divergence out of velocities that were brought over, but for what the porosity's rate asks: the flow of an
+/// instant, in which nothing moves but what pressure pushes. It is done twice, as stabilisation leaves a share of it the first time.
 void settle(fluid::Flow& flow, const fluid::FlowSolver& like, double dt) {
   constexpr int kTimes = 2;
   constexpr double kInstant = 1e-3;  // [dt]
@@ -28,11 +28,12 @@ void settle(fluid::Flow& flow, const fluid::FlowSolver& like, double dt) {
   solver.tolerance = like.tolerance;
   solver.instructions = like.instructions;
   base::Profile unused;
-  const std::vector<double> before = flow.unknown;
+  const std::vector<double> before = flow.unknown, rate = flow.porosity_rate;
   for (int i = 0; i < kTimes; ++i) {
     fluid::Past past;
     fluid::remember(past, flow, kInstant * dt);
     fluid::set_rates(flow, past, solver.order);
+    flow.porosity_rate = rate;
     fluid::advance(flow, past, solver, unused);  // where it fails the flow stays as it was
   }
   // The pressure of an instant is none of the flow's.
@@ -58,7 +59,7 @@ mesh::TriangleMesh mesh_for(const BasinSpec& spec, const std::vector<base::Vec2>
   });
 }
 
-void remesh(Basin& basin) {
+void remesh(Basin& basin, const std::function<void(fluid::Flow&)>& suspended) {
   const BasinSpec& spec = basin.spec;
   const double tip = basin.past_tip.front();
   RemeshReport report;
@@ -77,6 +78,7 @@ void remesh(Basin& basin) {
   Basin fresh{.spec = spec, .flow = std::move(flow), .top = std::move(top), .domain = std::move(domain)};
   place(fresh, tip);
   set_outside(fresh);
+  if (suspended) suspended(fresh.flow);
 
   const mesh::Transfer transfer(basin.flow.mesh, fresh.flow.mesh);
   const bool projects = spec.mesh.remesh && spec.mesh.remesh->transfer == TransferMethod::projection;
@@ -93,7 +95,8 @@ void remesh(Basin& basin) {
   };
   if (const auto v = std::ranges::find_if(basin.domain.wetted, carried(basin.flow)); v != basin.domain.wetted.end())
     for (const std::int32_t w : fresh.domain.wetted)
-      if (carried(fresh.flow)(w)) fresh.flow.u(w, kVelocityY) = basin.flow.u(*v, kVelocityY);
+      if (carried(fresh.flow)(w))
+        fresh.flow.u(w, kVelocityY) = fresh.flow.porosity[w] / basin.flow.porosity[*v] * basin.flow.u(*v, kVelocityY);
 
   settle(fresh.flow, basin.solver, spec.time.step);
 

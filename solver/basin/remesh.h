@@ -7,6 +7,8 @@
 // steps.
 #pragma once
 
+#include <functional>
+
 #include "solver/basin/basin.h"
 #include "solver/mesh/transfer.h"
 
@@ -15,8 +17,9 @@ namespace seapile::basin {
 /// Whether the scene asks for a new mesh now.
 bool needs_new_mesh(const Basin& basin);
 
-/// Throws mesh::NoMesh; the basin is then as it was.
-void remesh(Basin& basin);
+/// Throws mesh::NoMesh; the basin is then as it was. `suspended`: sets the new flow's porosity, and its rate at vertices
+/// at rest; empty: nothing stands in the water.
+void remesh(Basin& basin, const std::function<void(fluid::Flow&)>& suspended = {});
 
 /// The unstructured mesh of a basin whose top has the heights of `top` and whose tip stands at `tip`.
 mesh::TriangleMesh mesh_for(const BasinSpec& spec, const std::vector<base::Vec2>& right_half_of_top, double tip);

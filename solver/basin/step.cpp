@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "solver/basin/pile_force.h"
 #include "solver/basin/remesh.h"
 #include "solver/mesh/inversion.h"
 
@@ -22,14 +23,17 @@ std::vector<base::Vec2> velocities(const std::vector<double>& unknown) {
 /// The pile, surface and mesh of one step on their way to the new time.
 class Way {
  public:
-  explicit Way(Basin& basin)
+  Way(Basin& basin, const Suspension& suspension)
       : basin_(basin),
+        suspension_(suspension),
         dt_(basin.spec.time.step),
         tip_(tip_at(basin.spec, static_cast<double>(basin.step + 1) * dt_)),
         second_(basin.solver.order == fluid::TimeOrder::second && basin.past.level.size() == 2),
         old_height_(basin.top.height),
         old_unknown_(basin.flow.unknown),
-        old_mesh_velocity_(basin.flow.mesh_velocity) {
+        old_mesh_velocity_(basin.flow.mesh_velocity),
+        old_porosity_(basin.flow.porosity),
+        old_porosity_rate_(basin.flow.porosity_rate) {
     const std::vector<double>& past = basin.past_tip;
     pile_velocity_ = (second_ ? 1.5 * (tip_ - past[0]) - 0.5 * (past[0] - past[1]) : tip_ - past[0]) / dt_;
     for (std::size_t k = 0; k < (second_ ? 2u : 1u); ++k) {
@@ -42,9 +46,10 @@ class Way {
   double tip() const { return tip_; }
   const std::string& objection() const { return objection_; }
 
+  /// The water on the pile moves with it.
   void move_pile() {
     for (const std::int32_t v : basin_.domain.wetted)
-      if (basin_.flow.held[3 * v + kVelocityY]) basin_.flow.u(v, kVelocityY) = pile_velocity_;
+      if (basin_.flow.held[3 * v + kVelocityY]) basin_.flow.u(v, kVelocityY) = basin_.flow.porosity[v] * pile_velocity_;
   }
 
   /// The surface, by the velocities of the flow as it is, or by what the past says of the new time.
@@ -94,6 +99,8 @@ class Way {
       return false;
     }
     fluid::set_rates(basin_.flow, basin_.past, basin_.solver.order);
+    if (suspension_.moved) suspension_.moved(basin_);
+    move_pile();
     set_outside(basin_);
     return true;
   }
@@ -102,6 +109,8 @@ class Way {
     basin_.top.height = old_height_;
     basin_.flow.unknown = old_unknown_;
     basin_.flow.mesh_velocity = old_mesh_velocity_;
+    basin_.flow.porosity = old_porosity_;
+    basin_.flow.porosity_rate = old_porosity_rate_;
     basin_.flow.mesh.position = basin_.past.level[0].position;
     set_outside(basin_);
   }
@@ -161,26 +170,27 @@ class Way {
   }
 
   Basin& basin_;
+  const Suspension& suspension_;
   double dt_, tip_;
   bool second_;
   double pile_velocity_ = 0;  ///< upwards, as the scheme in time makes it of the pile's places [m/s]
   std::vector<fluid::SurfaceLevel> levels_;
   std::vector<double> old_height_, old_unknown_;
   std::vector<base::Vec2> old_mesh_velocity_;
+  std::vector<double> old_porosity_, old_porosity_rate_;
   std::string objection_;
 };
 
 }  // namespace
 
-std::string step(Basin& basin, base::Profile& profile) {
+std::string step(Basin& basin, base::Profile& profile, const Suspension& suspension) {
   fluid::Flow& flow = basin.flow;
-  Way way(basin);
+  Way way(basin, suspension);
   const auto fail = [&](std::string why) {
     way.undo();
     return why;
   };
 
-  way.move_pile();
   {
     const base::Stopwatch watch(profile, profile.index("domain"));
     way.move_surface(false);
@@ -195,9 +205,7 @@ std::string step(Basin& basin, base::Profile& profile) {
   const fluid::FlowReport report = fluid::advance(flow, basin.past, basin.solver, profile, follow);
   if (!report.converged) return fail(way.objection().empty() ? report.reason : way.objection());
 
-  if (basin.spec.pile)
-    basin.pile_force =
-        fluid::force_on(flow, fluid::scheme_of(basin.past, basin.solver), basin.domain.at_pile, basin.domain.of_pile);
+  if (basin.spec.pile) feel_pile(basin, fluid::scheme_of(basin.past, basin.solver));
   way.settle_volume(report.defect);
   ++basin.step;
   basin.last_iterations = report.iterations;
@@ -208,7 +216,7 @@ std::string step(Basin& basin, base::Profile& profile) {
   basin.past_flux.resize(std::min(basin.past_flux.size(), basin.past.level.size()));
   if (!needs_new_mesh(basin)) return {};
   const base::Stopwatch watch(profile, profile.index("remesh"));
-  remesh(basin);
+  remesh(basin, suspension.remeshed);
   return {};
 }
 

@@ -3,6 +3,7 @@
 //   1 pile      moves to its new place
 //   2 surface   moves with the water                                        surface_flux.h, fluid/free_surface.h
 //   3 mesh      follows both, with one mesh velocity                        mesh/motion.h
+//               and what stands in the water is found on it                 Suspension
 //   4 flow      is solved on the moved domain                               fluid/advance.h
 //   5 mesh      is made anew where its triangles have become bad, and the flow brought over     remesh.h
 //
@@ -11,6 +12,7 @@
 // with the velocities before, extrapolated. Both conserve volume with the conservative update.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "solver/base/profile.h"
@@ -18,7 +20,16 @@
 
 namespace seapile::basin {
 
+/// What stands in the water and is not its own: grains, that its owner moves. Empty functions: nothing.
+struct Suspension {
+  /// On the moved domain, each time it has been placed: sets the flow's porosity, the rate of it at the moving vertices,
+  /// drag and answer.
+  std::function<void(Basin&)> moved;
+  /// On a new mesh at the same time, with nothing remembered: sets porosity, and its rate where vertices are at rest.
+  std::function<void(fluid::Flow&)> remeshed;
+};
+
 /// Empty when the step is done; otherwise one sentence on why it cannot be, and the basin is as it was before.
-std::string step(Basin& basin, base::Profile& profile);
+std::string step(Basin& basin, base::Profile& profile, const Suspension& suspension = {});
 
 }  // namespace seapile::basin

@@ -85,8 +85,8 @@ FlowRecord record_of(const Basin& basin) {
   if (spec.pile) {
     record.pile_depth = spec.depth - basin.past_tip.front();
     record.pile_speed = pile::velocity(spec.pile->driving, record.time);
-    record.pile_force_x = basin.pile_force[0];
-    record.pile_force_y = basin.pile_force[1];
+    record.pile_force_x = basin.tip_force.x + basin.sleeve_force.x;
+    record.pile_force_y = basin.tip_force.y + basin.sleeve_force.y;
   }
   const mesh::QualitySummary quality = mesh::summary_of(mesh::quality_of(basin.flow.mesh));
   record.lowest_shape = quality.lowest_shape;
@@ -129,8 +129,8 @@ std::vector<Array> snapshot(const Basin& basin) {
       {{"surface/height", "m", "height", 1, Entity::surface}, basin.top.height},
       {{"surface/past_flux", "m2/s", "fluxes through it, level after level", 1, Entity::run}, flux},
       {{"pile/past_tip", "m", "heights of the tip, newest first", 1, Entity::run}, basin.past_tip},
-      {{"pile/force", "N/m", "of the water on the pile", 1, Entity::run},
-       std::vector<double>{basin.pile_force[0], basin.pile_force[1]}}};
+      {{"pile/force", "N/m", "of the water on tip and sleeve", 2, Entity::run},
+       flat({basin.tip_force, basin.sleeve_force})}};
   add_flow(state, flow, basin.past, basin.solver);
   return state;
 }
@@ -160,8 +160,9 @@ Basin restored(const basin::BasinSpec& spec, base::InstructionSet instructions, 
   const auto count = static_cast<std::ptrdiff_t>(basin.top.height.size());
   for (auto level = flux.begin(); flux.end() - level >= count; level += count)
     basin.past_flux.emplace_back(level, level + count);
-  const auto& force = array_of<double>(state, "pile/force", 2);
-  basin.pile_force = {force[0], force[1]};
+  const std::vector<base::Vec2> force = vectors(array_of<double>(state, "pile/force", 4));
+  basin.tip_force = force[0];
+  basin.sleeve_force = force[1];
   const auto& steps = array_of<std::int64_t>(state, "basin/steps", 3);
   basin.step = steps[0];
   basin.iterations = steps[1];
