@@ -1,0 +1,34 @@
+// Which drag the water exerts on a grain.
+//
+// A bed of discs has a plane porosity of about 0.18, where one of spheres has 0.4. Laws from beds of spheres with 0.18
+// in them resist about 29 times as much. The porosity of the bed of spheres that is packed alike,
+//   phi_3 = 1 - 2/sqrt(pi sqrt(3)) (1 - phi)^1.5
+// (B. P. B. Hoomans et al., Chem. Eng. Sci. 51 (1996) 99-118), takes the densest discs to the densest spheres (0.2595)
+// and water to water. With it, pressure drop and fluidisation are those of a bed of porosity phi_3.
+#pragma once
+
+#include <cstdint>
+
+#include "solver/fluid/element.h"
+
+namespace seapile::coupling {
+
+struct DragLaw {
+  enum class Closure : std::uint8_t { dallavalle, di_felice };
+  enum class Porosity : std::uint8_t {
+    equivalent,  ///< phi_3
+    plane,       ///< phi, as the literature's codes have it
+  };
+  Closure closure = Closure::dallavalle;
+  Porosity porosity = Porosity::equivalent;
+};
+
+/// phi_3 [-].
+double equivalent_porosity(double porosity);
+
+/// gamma in F = gamma (v_f - v_i), the drag on a disc per metre of depth [kg/m/s]. `porosity`: phi of the plane at the
+/// grain, > 0; `superficial_slip`: phi |v_f - v_i| [m/s].
+double drag_coefficient(const DragLaw& law, const fluid::Properties& fluid, double diameter, double porosity,
+                        double superficial_slip);
+
+}  // namespace seapile::coupling
