@@ -206,6 +206,7 @@ std::string step(Basin& basin, base::Profile& profile, const Suspension& suspens
   if (!report.converged) return fail(way.objection().empty() ? report.reason : way.objection());
 
   if (basin.spec.pile) feel_pile(basin, fluid::scheme_of(basin.past, basin.solver));
+  if (suspension.solved) suspension.solved(basin);
   way.settle_volume(report.defect);
   ++basin.step;
   basin.last_iterations = report.iterations;

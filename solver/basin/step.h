@@ -25,6 +25,8 @@ struct Suspension {
   /// On the moved domain, each time it has been placed: sets the flow's porosity, the rate of it at the moving vertices,
   /// drag and answer.
   std::function<void(Basin&)> moved;
+  /// When the flow is solved, before a new mesh is made.
+  std::function<void(const Basin&)> solved;
   /// On a new mesh at the same time, with nothing remembered: sets porosity, and its rate where vertices are at rest.
   std::function<void(fluid::Flow&)> remeshed;
 };

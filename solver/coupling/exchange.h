@@ -1,0 +1,77 @@
+// Momentum and volume that grains and fluid give each other within a step of the fluid.
+//
+//   drag       F_d = gamma_e (v_f - v*),   gamma_e = gamma m/(m + dt gamma)                         [N/m]
+//   pressure   F_p = -sum_j V_j g_j,   g_j = (1/m_j) integral of N_j grad p                         [N/m]
+//
+// of a grain of mass m, of which the vertex j has the area V_j (deposit.h); m_j the integral of the hat function N_j,
+// v_f = sum_j (V_j/V) u_j/phi_j the fluid's velocity at the grain. v* is the velocity that the grain will have at the
+// end of the step but for this step's drag, so that gamma_e makes the drag implicit in the grain's velocity too: stable
+// for grains however light (the semi-implicit drag of MigFlow: Constant, Dubois, Lambrechts, Legat, Comp. Part. Mech. 6
+// (2019) 213-226). Pressure is without the hydrostatic one: buoyancy is part of the grains' weight.
+//
+// On the fluid's side (fluid/element.h) the same forces stand lumped at the vertices,
+//   beta = B_j/(m_j phi_j),   u_g = phi_j (sum_i gamma_e w_ij v*_i)/B_j,   B_j = sum_i gamma_e w_ij,   w_ij = V_ij/V_i
+// and (1 - phi) grad p inside its -phi grad p: what one gains the other loses, to rounding.
+//
+// Volume: dphi/dt is that of the grains' predicted way x + dt (v - dt a), a the acceleration by the last step's
+// exchange; what this step's exchange makes of it stands in the mass equation as the grains' answer,
+//   kappa = (dt/m_j) sum_i (V_i/m) V_ij,   chi = (dt/(m_j phi_j)) sum_i (V_i/m) gamma_e w_ij.
+// With the way alone, the pressure would answer last step's motion: where (1 - phi) rho > phi rho_p, as in every
+// dense bed, the two then throw each other to and fro, the faster the smaller dt.
+//
+// The rate of phi at the moving vertices is made of volumes, so that none is lost whatever the mesh does:
+//   m_j dphi_j/dt = (1 - phi_j) D m_j - D S_j,   S_j = sum_i V_ij,   D the difference of the scheme in time.
+// Areas of triangles whose vertices move vertically are linear in time, and the mesh velocity's divergence is D m_j.
+//
+// First order in time. Neglected: added mass beyond what the pressure of the averaged flow gives, lift, torque.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/base/vec2.h"
+#include "solver/coupling/deposit.h"
+#include "solver/coupling/drag.h"
+#include "solver/fluid/advance.h"
+#include "solver/fluid/flow.h"
+
+namespace seapile::coupling {
+
+/// The grains as the fluid meets them within a step, one by one, (grains).
+struct Suspended {
+  std::vector<double> mass;         ///< m [kg/m]
+  std::vector<double> drag;         ///< gamma_e [kg/m/s]
+  std::vector<base::Vec2> velocity; ///< v* [m/s]
+};
+
+/// Porosity of vertices that share out the grains as in `deposit`.
+struct Porosity {
+  std::vector<double> value;   ///< phi, at least `least`, (vertices)
+  std::vector<double> kept;    ///< share of S_j that phi stands for; 1 where nothing is cut off, (vertices)
+  double lowest = 1;           ///< before it is cut off [-]
+  double clipped_volume = 0;   ///< sum of the S_j that is cut off [m2]
+};
+Porosity porosity_of(const Deposit& deposit, std::span<const double> vertex_volume, double least);
+
+/// Sets flow.porosity_rate at the flow's porosity and places, and those of `past`.
+void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order);
+
+/// gamma of each grain [kg/m/s], for the flow's velocities and porosities as they are; of its share in the fluid.
+std::vector<double> drag_coefficients(const DragLaw& law, const fluid::Flow& flow, const Deposit& deposit,
+                                      std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity);
+
+/// Sets the flow's drag, carried, mobility and response. `kept`: of the porosity.
+void put_grains(fluid::Flow& flow, const Deposit& deposit, std::span<const double> vertex_volume,
+                std::span<const double> kept, const Suspended& grains, double dt);
+
+/// What the flow, solved, does to the grains.
+struct Forces {
+  std::vector<base::Vec2> drag, pressure;  ///< [N/m], (grains)
+};
+Forces forces_on(const Deposit& deposit, const fluid::Flow& flow, std::span<const double> vertex_volume,
+                 std::span<const double> kept, const Suspended& grains);
+
+/// Area of a grain in the mesh: sum of its V_ij [m2].
+double immersed_volume(const Deposit& deposit, std::size_t grain);
+
+}  // namespace seapile::coupling
