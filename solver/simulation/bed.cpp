@@ -15,66 +15,14 @@
 #include "solver/simulation/build.h"
 #include "solver/simulation/observe.h"
 #include "solver/simulation/run.h"
+#include "solver/simulation/settle.h"
 #include "solver/simulation/step.h"
 
 namespace seapile::simulation {
 namespace {
 
-constexpr double kRecordTime = 0.01;        // [s] between two records
-constexpr double kRestTime = 0.05;          // [s] over which a bed must be at rest
-constexpr double kRestSpeed = 1e-4;         // [m/s] rms
-constexpr double kRestBaseError = 1e-3;     // of the weight
 constexpr double kLeastFriction = 1e-3;     // below it nothing changes
 constexpr int kMostTrials = 14;
-
-double rms_speed(const Simulation& sim) {
-  double sum = 0;
-  std::visit(
-      [&](const auto& system) {
-        for (std::size_t i = 0; i < sim.grains.count(); ++i) {
-          const auto& m = system.motion(static_cast<std::int32_t>(i));
-          const double vx = static_cast<double>(m.vx), vy = static_cast<double>(m.vy);
-          sum += vx * vx + vy * vy;
-        }
-      },
-      sim.contacts);
-  return std::sqrt(sum / static_cast<double>(sim.grains.count()));
-}
-
-double weight(const Simulation& sim) {
-  double mass = 0;
-  for (const double m : sim.grains.mass) mass += m;
-  return mass * sim.law.gravity;
-}
-
-struct Settled {
-  double time = 0;  ///< [s]
-  double base_error = 0, rms_speed = 0;
-};
-
-/// Steps until at rest; throws when that takes longer than `longest`.
-Settled settle(Simulation& sim, double longest, std::vector<Record>& records, const std::function<void(double)>& progress) {
-  const double start = sim.clock.time(), heavy = weight(sim);
-  int at_rest = 0;
-  Settled settled;
-  while (at_rest < std::lround(kRestTime / kRecordTime)) {
-    const double until = sim.clock.time() + kRecordTime;
-    while (sim.clock.time() < until - 0.5 * sim.clock.dt) {
-      const StepReport report = step(sim);
-      if (const std::string why = objection(sim, report); !why.empty()) throw std::runtime_error("the bed does not settle: " + why);
-      gather(sim, report);
-    }
-    records.push_back(take_record(sim));
-    settled = {sim.clock.time() - start, std::abs(records.back().base_force / heavy - 1), rms_speed(sim)};
-    at_rest = settled.rms_speed < kRestSpeed && settled.base_error < kRestBaseError ? at_rest + 1 : 0;
-    progress(settled.time);
-    if (settled.time > longest)
-      throw std::runtime_error("the bed is not at rest after the longest settling time: rms speed " +
-                               std::to_string(settled.rms_speed) + " m/s, base force off by " +
-                               std::to_string(100 * settled.base_error) + " %");
-  }
-  return settled;
-}
 
 std::span<const grains::Disc> discs(const Simulation& sim) { return {sim.grains.disc.data(), sim.grains.count()}; }
 

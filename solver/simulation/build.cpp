@@ -9,6 +9,8 @@
 
 #include "solver/grains/packing.h"
 #include "solver/pile/pile.h"
+#include "solver/simulation/settle.h"
+#include "solver/simulation/state.h"
 
 namespace seapile::simulation {
 namespace {
@@ -32,6 +34,14 @@ grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& 
   return law;
 }
 
+/// Displacements and depths count from the grains' present places.
+void start_here(Simulation& sim) {
+  sim.origin.clear();
+  for (std::size_t i = 0; i < sim.grains.count(); ++i)
+    sim.origin.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
+  sim.surface = grains::bed_surface({sim.grains.disc.data(), sim.grains.count()}, sim.box.left, sim.box.right);
+}
+
 Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contact, grains::Grains grains,
                     const Execution& execution) {
   Simulation sim;
@@ -44,8 +54,7 @@ Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contac
   else if (contact.precision == grains::Precision::double_)
     sim.contacts.emplace<grains::ContactSystem<double>>();
   std::visit([&](auto& system) { enclose(system, sim.grains); }, sim.contacts);
-  for (std::size_t i = 0; i < sim.grains.count(); ++i) sim.origin.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
-  sim.surface = grains::bed_surface({sim.grains.disc.data(), sim.grains.count()}, sim.box.left, sim.box.right);
+  start_here(sim);
   sim.totals.feature.resize(2);
   sim.team = team_of(execution);
   return sim;
@@ -59,6 +68,28 @@ const std::vector<T>& values(const std::vector<Array>& arrays, const std::string
   throw std::invalid_argument("the bed has no array " + name + " of the expected type");
 }
 
+/// The grains of a saturated scene at its start: of less weight, at rest again (so that wet and dry runs have one
+/// packing).
+void immerse(Simulation& sim, const scene::SceneSpec& scene, const std::vector<Array>& resume_from) {
+  sim.law.gravity *= 1 - scene.fluid->density / scene.bed.grains.density;
+  if (resume_from.empty()) {
+    std::vector<Record> unused;
+    settle(sim, scene.bed.preparation.longest, unused, [](double) {});
+    sim.clock.step = 0;
+    sim.gathering = {};
+    sim.totals = {};
+    sim.totals.feature.resize(2);
+  } else {
+    const auto& origin = values<double>(resume_from, "grains/origin");
+    if (origin.size() != 2 * sim.grains.count()) throw std::invalid_argument("the state is of another bed");
+    for (std::size_t i = 0; i < sim.grains.count(); ++i) {
+      sim.grains.disc[i].x = origin[2 * i];
+      sim.grains.disc[i].y = origin[2 * i + 1];
+    }
+  }
+  start_here(sim);
+}
+
 }  // namespace
 
 Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double friction, const Execution& execution) {
@@ -67,11 +98,13 @@ Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double fr
   return sim;
 }
 
-Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution) {
+Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution,
+                 const std::vector<Array>& resume_from) {
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
   if (static_cast<std::int64_t>(sim.grains.count()) != scene.bed.grains.count)
     throw std::invalid_argument("the bed has " + std::to_string(sim.grains.count()) + " grains, the scene " +
                                 std::to_string(scene.bed.grains.count));
+  if (scene.fluid) immerse(sim, scene, resume_from);
   if (!scene.pile) return sim;
 
   Pile& pile = sim.pile.emplace();
@@ -89,6 +122,8 @@ Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution&
   pile.body.friction = pile.spec.friction;
   pile.body.position = {0, pile.start};
   sim.gathering.position = pile.start;
+  if (scene.fluid) sim.water.emplace(water_around(sim, basin_of(scene, pile.start), scene.fluid->coupling, scene.bed.grains.density));
+  if (!resume_from.empty()) restore(sim, resume_from);
   return sim;
 }
 

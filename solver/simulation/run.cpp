@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "solver/pile/pile.h"
+#include "solver/mesh/generate.h"
+#include "solver/simulation/basin_state.h"
 #include "solver/simulation/build.h"
 #include "solver/simulation/observe.h"
 #include "solver/simulation/state.h"
@@ -50,6 +52,18 @@ std::vector<FramePlan> plan_frames(const Simulation& sim, const scene::RecordSpe
   return plan;
 }
 
+/// One step; why it is not acceptable, or empty.
+std::string advance(Simulation& sim, bool keep_impulses) {
+  try {
+    const StepReport report = step(sim, keep_impulses);
+    std::string why = objection(sim, report);
+    if (why.empty()) gather(sim, report);
+    return why;
+  } catch (const mesh::NoMesh& error) {
+    return std::string("no new mesh could be made: ") + error.what();
+  }
+}
+
 }  // namespace
 
 std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
@@ -91,8 +105,16 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
               const Execution& execution, const std::vector<Array>& resume_from,
               const RecordsSoFar& so_far, const RunHooks& hooks) {
   if (!scene.pile) throw std::invalid_argument("run: the scene has no pile");
-  Simulation sim = build(scene, bed, execution);
-  if (!resume_from.empty()) restore(sim, resume_from);
+  RunResult result;
+  std::optional<Simulation> built;
+  try {
+    built = build(scene, bed, execution, resume_from);
+  } catch (const std::runtime_error& error) {  // it does not settle under water, or has no mesh
+    result.outcome = Outcome::diverged;
+    result.reason = error.what();
+    return result;
+  }
+  Simulation& sim = *built;
 
   const double end = end_time(sim, *scene.pile);
   const std::vector<FramePlan> frames = plan_frames(sim, record, *scene.pile, end);
@@ -101,9 +123,9 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   while (next_frame < frames.size() && frames[next_frame].end <= now - half) ++next_frame;
 
   std::vector<Record> records = so_far.records;
+  std::vector<FlowRecord> flow_records = so_far.flow_records;
   std::vector<ForceWindow> windows;  // of the frames whose window is open, from next_frame on
   std::optional<Trial> trial;
-  RunResult result;
 
   while (result.outcome == Outcome::completed && sim.clock.time() < end - half) {
     // A state to go back to; windows are no part of it, so it is taken while none is open.
@@ -112,20 +134,19 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
            frames[next_frame + windows.size()].begin <= sim.clock.time() + half)
       windows.emplace_back(frames[next_frame + windows.size()].depth);
 
-    const StepReport report = step(sim, !windows.empty());
-    if (std::string why = objection(sim, report); !why.empty()) {
+    if (std::string why = advance(sim, !windows.empty()); !why.empty()) {
       result.outcome = Outcome::diverged;
       result.reason = std::move(why) + " (at t = " + std::to_string(sim.clock.time()) + " s)";
       trial->reject(sim);
       if (hooks.checkpoint) hooks.checkpoint(trial->start());
       break;
     }
-    gather(sim, report);
     for (ForceWindow& window : windows) window.add(sim);
 
     const bool last = sim.clock.time() >= end - half;
     while (!windows.empty() && (last || frames[next_frame].end <= sim.clock.time() + half)) {
       if (hooks.frame) hooks.frame(windows.front().frame(sim, record.spacing, scene.bed.domain.height));
+      if (sim.water && hooks.flow_frame) hooks.flow_frame(frame_of(sim.water->basin));
       windows.erase(windows.begin());
       ++next_frame;
     }
@@ -134,6 +155,10 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
       continue;
     records.push_back(take_record(sim));
     if (hooks.record) hooks.record(records.back());
+    if (sim.water) {
+      flow_records.push_back(take_flow_record(sim));
+      if (hooks.flow_record) hooks.flow_record(flow_records.back());
+    }
     if (hooks.progress) hooks.progress({sim.clock.time(), std::min(1.0, sim.clock.time() / end), depth(sim)});
     if (last || !windows.empty()) continue;
     const bool stop = hooks.stop && hooks.stop();

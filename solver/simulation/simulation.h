@@ -13,6 +13,7 @@
 #include "solver/grains/rigid_body.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/execution.h"
+#include "solver/simulation/water.h"
 
 namespace seapile::simulation {
 
@@ -49,6 +50,7 @@ struct Simulation {
   grains::Grains grains;
   std::variant<grains::ContactSystem<float>, grains::ContactSystem<double>, grains::AllPairs> contacts;
   std::optional<Pile> pile;              ///< absent: a bed
+  std::optional<Water> water;            ///< absent: a dry scene
   grains::ContactTotals totals;          ///< impulses since the last record; work since the start
   Gathering gathering;
   double surface = 0;                    ///< of the initial bed [m]; depths count from here

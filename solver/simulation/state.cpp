@@ -7,6 +7,7 @@
 
 #include "solver/grains/contact_lists.h"
 #include "solver/simulation/simulation.h"
+#include "solver/simulation/water_state.h"
 
 namespace seapile::simulation {
 namespace {
@@ -277,20 +278,25 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
 }  // namespace
 
 void describe(const Simulation& sim, const std::function<void(const ArrayInfo&, ArrayView)>& visit) {
-  const Parts parts = take(sim);
-  for (const auto& [info, values] : parts.arrays)
-    std::visit([&, &info = info](const auto& v) { visit(info, view(v)); }, values);
+  for (const Array& array : snapshot(sim))
+    std::visit([&](const auto& v) { visit(array.info, view(v)); }, array.values);
 }
 
 std::vector<Array> snapshot(const Simulation& sim) {
   std::vector<Array> state;
   Parts parts = take(sim);
   for (auto& [info, values] : parts.arrays) state.push_back({std::move(info), std::move(values)});
+  if (!sim.water) return state;
+  for (Array& array : snapshot(*sim.water)) state.push_back(std::move(array));
   return state;
 }
 
-void restore(Simulation& sim, const std::vector<Array>& state) {
+void restore(Simulation& sim, const std::vector<Array>& all) {
+  std::vector<Array> state;
+  std::ranges::copy_if(all, std::back_inserter(state), [](const Array& array) { return !is_of_water(array); });
   check(sim, state);
+  if (!sim.water && state.size() < all.size()) throw std::invalid_argument("state: it is of a saturated scene");
+  if (sim.water) restore(*sim.water, all);
   const Source source(state);
   const auto& position = source.get<double>("grains/position");
   const auto& origin = source.get<double>("grains/origin");

@@ -1,8 +1,19 @@
-// One time step: Algorithm 1 of the thesis (ch. 6.2), for what a dry scene owns of it.
+// One time step: Algorithm 1 of the thesis (ch. 6.2), in the order that keeps volumes, mesh and grains consistent.
 //
-// Line 2, the pile's motion, comes first: within a step the pile is where its prescribed path has it at each sub-step,
-// and the grains meet it there (a deviation from the printed order: docs/formulation.md 1). A dry scene has no lines
-// 3 to 8: there is no fluid whose domain could follow.
+//   saturated, when a step of the fluid begins (every grain_steps steps of the grains):
+//     2    pile        to its place at the end of the fluid's step            basin/step.h
+//     3-6  surface and mesh follow, with one mesh velocity                    basin/step.h
+//     7    porosity    of the grains' predicted places on the moved mesh      coupling/deposit.h
+//     1    u, p        with drag and the grains' answer in them               coupling/exchange.h, fluid/advance.h
+//     8    mesh        made anew where its triangles have become bad          basin/remesh.h
+//          forces      of the fluid on the grains, for all of its step        coupling/exchange.h
+//   always:
+//     2    pile        along its path within the step
+//     1    grains      against walls, pile and each other, under weight and the fluid's forces -> x_p, v_p, impulses
+//     9    t = t + dt
+//
+// The thesis solves first and moves the domain afterwards, and does not say when the grains move. Within a step the
+// pile is where its prescribed path has it at each sub-step, and the grains meet it there (docs/formulation.md 1).
 #include "solver/simulation/step.h"
 
 #include <cmath>
@@ -27,6 +38,10 @@ std::vector<double> path_in_step(const Pile& pile, const Clock& clock, int subst
 
 StepReport step(Simulation& sim, bool keep_impulses) {
   StepReport report;
+  if (sim.water && sim.clock.step % sim.water->grain_steps == 0) {
+    report.water = step_water(sim);
+    if (!report.water.empty()) return report;
+  }
 
   // 2. Pile position -> d.
   std::vector<double> path;
@@ -50,6 +65,7 @@ StepReport step(Simulation& sim, bool keep_impulses) {
 }
 
 std::string objection(const Simulation& sim, const StepReport& report) {
+  if (!report.water.empty()) return report.water;
   if (!report.contact.finite) return "a grain's place is not a number";
   double smallest = 0;
   std::visit([&](const auto& system) { smallest = system.smallest_radius; }, sim.contacts);

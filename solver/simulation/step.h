@@ -9,6 +9,7 @@ namespace seapile::simulation {
 /// What a step admits about itself.
 struct StepReport {
   grains::ContactReport contact;
+  std::string water;  ///< why the fluid could not be advanced, one sentence; empty when it was, or was not due
 };
 
 /// One time step. `keep_impulses`: so that touching_contacts() can be asked afterwards.

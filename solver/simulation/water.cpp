@@ -95,13 +95,13 @@ basin::BasinSpec basin_of(const scene::SceneSpec& scene, double tip) {
   return basin;
 }
 
-Water water_around(const Simulation& sim, const scene::SceneSpec& scene, base::InstructionSet instructions) {
-  const double tip = sim.pile ? sim.pile->start : 0;
-  basin::Basin basin = basin::filled(basin_of(scene, tip), instructions);
+Water water_around(const Simulation& sim, const basin::BasinSpec& spec, const coupling::CouplingSpec& coupling,
+                   double grain_density) {
+  basin::Basin basin = basin::filled(spec, sim.team.instructions);
   coupling::Location location(basin.flow.mesh);
-  Water water{.basin = std::move(basin), .coupling = scene.fluid->coupling, .location = std::move(location)};
-  water.grain_steps = static_cast<int>(std::lround(scene.fluid->time.step / scene.contact.step));
-  water.buoyancy = scene.fluid->density / scene.bed.grains.density * scene.bed.domain.gravity;
+  Water water{.basin = std::move(basin), .coupling = coupling, .location = std::move(location)};
+  water.grain_steps = static_cast<int>(std::lround(spec.time.step / sim.clock.dt));
+  water.buoyancy = spec.density / grain_density * spec.gravity;
   water.drag.assign(sim.grains.count(), {});
   water.pressure.assign(sim.grains.count(), {});
   water.velocity = velocities_of(sim);

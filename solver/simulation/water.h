@@ -43,8 +43,10 @@ struct Water {
 /// The basin that a saturated scene's water is, when the pile's tip starts at the height `tip` [m].
 basin::BasinSpec basin_of(const scene::SceneSpec& scene, double tip);
 
-/// Water at rest around the grains of a simulation, which has its pile. Throws mesh::NoMesh.
-Water water_around(const Simulation& simulation, const scene::SceneSpec& scene, base::InstructionSet instructions);
+/// Water at rest around the grains of a simulation, which has its pile and whose gravity is g (1 - rho/rho_p) already.
+/// `grain_density`: rho_p [kg/m3]. Throws mesh::NoMesh.
+Water water_around(const Simulation& simulation, const basin::BasinSpec& basin, const coupling::CouplingSpec& coupling,
+                   double grain_density);
 
 /// One step of the fluid from the present time, and what it does to the grains during that step (grains.push). Empty
 /// when it is done; otherwise one sentence, and nothing has changed.
