@@ -27,9 +27,11 @@ const std::vector<Room> kRooms = {
     {"solver/mesh/", {"solver/base/"}},
     {"solver/fluid/", {"solver/base/", "solver/mesh/"}},
     {"solver/basin/", {"solver/base/", "solver/fluid/", "solver/mesh/", "solver/pile/"}},
+    {"solver/coupling/", {"solver/base/"}},
     {"solver/scene/", {"solver/base/", "*_spec.h"}},
     {"solver/simulation/",
-     {"solver/base/", "solver/basin/", "solver/fluid/", "solver/grains/", "solver/mesh/", "solver/pile/", "solver/scene/"}},
+     {"solver/base/", "solver/basin/", "solver/coupling/", "solver/fluid/", "solver/grains/", "solver/mesh/",
+      "solver/pile/", "solver/scene/"}},
 
     {"runner/study/", {"solver/base/", "solver/scene/", "*_spec.h", "solver/simulation/array.h"}},
     {"runner/store/",
