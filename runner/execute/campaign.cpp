@@ -109,7 +109,7 @@ Request Campaign::request_for(const Task& task) const {
   if (task.kind == Kind::bed) {
     request.kind = "bed";
     request.canonical = c.bed_canonical;
-    request.scene.pile.reset();
+    request.scene = bed_alone(c.scene);
   } else if (task.kind == Kind::flow) {
     request.kind = "flow";
     request.canonical = c.canonical;

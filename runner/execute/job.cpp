@@ -143,7 +143,7 @@ class Job {
     const store::Resumable& resumable = writer.resumable();
     if (!resumable.state.empty()) log("continues after {} records", resumable.records.size());
     return end(writer, simulation::run(request_.scene, request_.record, bed, execution(), resumable.state,
-                                       resumable.records, hooks));
+                                       {resumable.records, resumable.flow_records}, hooks));
   }
 
   int flow(store::RunWriter& writer) {
@@ -165,6 +165,10 @@ class Job {
     Hooks hooks;
     if constexpr (requires { hooks.record; }) hooks.record = [&writer](const auto& record) { writer.add(record); };
     hooks.frame = [&writer](const auto& frame) { writer.add(frame); };
+    if constexpr (requires { hooks.flow_record; }) {
+      hooks.flow_record = [&writer](const simulation::FlowRecord& record) { writer.add(record); };
+      hooks.flow_frame = [&writer](const simulation::FlowFrame& frame) { writer.add(frame); };
+    }
     hooks.progress = [this](const simulation::Progress& progress) { advance(progress); };
     hooks.checkpoint_due = [this] { return checkpoints_.due(); };
     hooks.checkpoint = [this, &writer](const std::vector<simulation::Array>& state) {

@@ -89,6 +89,13 @@ std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want
   return missing.empty() ? first_missing(have.times, want.times, "s") : missing;
 }
 
+scene::SceneSpec bed_alone(const scene::SceneSpec& scene) {
+  scene::SceneSpec bed = scene;
+  bed.pile.reset();
+  bed.fluid.reset();
+  return bed;
+}
+
 std::optional<scene::RecordSpec> record_of_runs(const scene::RecordSpec& record, const scene::SceneSpec& scene) {
   if (!is_recorded(scene)) return std::nullopt;
   return study::record_of(record, scene);
@@ -140,7 +147,7 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     if (!inserted) continue;
     bed->second.history = disk(c.bed_id);
     plan.tasks.push_back({Kind::bed, c.bed_id, i, std::nullopt, "bed " + short_id(c.bed_id), most_threads(c.scene),
-                          decide({numerics(c.scene), std::nullopt, ""}, bed->second.history)});
+                          decide({numerics(bed_alone(c.scene)), std::nullopt, ""}, bed->second.history)});
   }
   // A drive by itself: a bed that has been run again since, or is lost, does not count yet.
   std::vector<History> histories(study.cases.size());
@@ -212,7 +219,12 @@ std::string short_id(const std::string& case_id) { return case_id.substr(0, 10);
 
 std::string label_line(const std::vector<std::pair<std::string, std::string>>& labels) {
   std::vector<std::string> words;
-  for (const auto& [path, value] : labels) words.push_back(fmt::format("{}={}", path, value));
+  for (const auto& [path, value] : labels) {
+    // Of a part its members stand there: "density=1300 kg/m3".
+    const std::size_t end = value.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
+    const bool is_part = end != std::string::npos && end > 0 && value[end] == '=';
+    words.push_back(fmt::format("{}{}{}", path, is_part ? "." : "=", value));
+  }
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

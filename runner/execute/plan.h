@@ -88,6 +88,9 @@ struct Plan {
   std::vector<Task> tasks;  ///< beds first, each once
 };
 
+/// The scene that a case's bed is prepared from. What is done to the bed, and what is poured on it, is no part of it.
+scene::SceneSpec bed_alone(const scene::SceneSpec& scene);
+
 /// Tells today's numerics of a scene.
 using Numerics = std::function<std::vector<simulation::NumericsVersion>(const scene::SceneSpec&)>;
 
@@ -100,7 +103,7 @@ std::vector<std::string> describe(const Plan& plan);
 /// The first ten hex digits of a case id: what people see.
 std::string short_id(const std::string& case_id);
 
-/// The labels of a case in one line: "pile.tip=flat, bed.seed=2".
+/// The labels of a case in one line: "pile.tip=flat, fluid.density=1300 kg/m3, bed.seed=2".
 std::string label_line(const std::vector<std::pair<std::string, std::string>>& labels);
 
 }  // namespace seapile::execute

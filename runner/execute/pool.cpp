@@ -75,8 +75,9 @@ class Pool {
   void replan(std::size_t i) {
     Task& task = plan_.tasks[i];
     const study::Case& of_study = study_.cases[task.study_case];
-    Asked asked{numerics_(of_study.scene), std::nullopt, ""};
-    if (task.kind != Kind::bed) asked.record = record_of_runs(study_.record, of_study.scene);
+    const bool is_bed = task.kind == Kind::bed;
+    Asked asked{numerics_(is_bed ? bed_alone(of_study.scene) : of_study.scene), std::nullopt, ""};
+    if (!is_bed) asked.record = record_of_runs(study_.record, of_study.scene);
     if (task.kind == Kind::drive) {
       const History bed = store_.disk(of_study.bed_id);
       asked.bed_run = bed.past ? bed.past->run : "";

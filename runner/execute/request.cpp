@@ -60,6 +60,7 @@ Request request_from_json(const std::string& text, const std::string& file) {
   if ((request.kind == "flow") != is_water(request.scene))
     refuse(file, "/scene", "a flow needs a jet or a basin, and only a flow has one");
   if (request.kind == "drive" && !request.scene.pile) refuse(file, "/scene/pile", "a drive needs a pile");
+  if (request.kind != "drive" && request.scene.fluid) refuse(file, "/scene/fluid", "only a drive has a fluid");
   // Both become parts of a path.
   if (!only(request.bed_id, "0123456789abcdef")) refuse(file, "/bed_id", "is not a case id");
   if (!only(request.bed_run, "0123456789")) refuse(file, "/bed_run", "is not a run number");

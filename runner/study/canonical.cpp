@@ -72,8 +72,6 @@ std::string member_text(const T& member) {
     std::string text = "[";
     for (const double number : member) text += (text.size() > 1 ? "," : "") + double_text(number);
     return text + "]";
-  } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
-    return "null";
   } else {
     return object_text(members_of<kPurpose>(member));
   }

@@ -122,10 +122,6 @@ void read_numbers(const Value& value, const Field& field, std::vector<double>& m
   if (numbers.size() == value.items.size()) member = std::move(numbers);
 }
 
-void read_only_null(const Value& value, Problems& problems) {
-  if (value.kind != Kind::null) report(value, "is something that this version does not simulate", "null", problems);
-}
-
 std::optional<std::size_t> read_choice(const Value& value, const std::vector<std::string>& names, Problems& problems) {
   if (value.kind != Kind::string) {
     report(value, fmt::format("is {}, not one of the names", kind_name(value)), listed(names), problems);

@@ -21,7 +21,6 @@ void read_integer(const Value& value, const base::Field& field, std::int64_t& me
 void read_boolean(const Value& value, bool& member, base::Problems& problems);
 void read_string(const Value& value, std::string& member, base::Problems& problems);
 void read_numbers(const Value& value, const base::Field& field, std::vector<double>& member, base::Problems& problems);
-void read_only_null(const Value& value, base::Problems& problems);
 /// The index of a name written as a string.
 std::optional<std::size_t> read_choice(const Value& value, const std::vector<std::string>& names,
                                        base::Problems& problems);
@@ -91,8 +90,6 @@ void read_member(const Value& value, const base::Field& field, T& member, base::
     if (const auto index = read_choice(value, enum_names<T>(), problems)) member = static_cast<T>(*index);
   } else if constexpr (std::is_same_v<T, std::vector<double>>) {
     read_numbers(value, field, member, problems);
-  } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
-    read_only_null(value, problems);
   } else if constexpr (kIsOptional<T>) {
     if (value.kind == Value::Kind::null) {
       member.reset();

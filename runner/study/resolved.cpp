@@ -39,8 +39,6 @@ void resolve_member(const T& member, const std::string& path, ResolvedScene& res
     resolved[path] = static_cast<double>(member);
   } else if constexpr (std::is_enum_v<T>) {
     resolved[path] = enum_names<T>()[static_cast<std::size_t>(member)];
-  } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
-    resolved[path] = nullptr;
   } else {
     resolve_fields(member, path);
   }

@@ -40,9 +40,6 @@ SchemaNode node_of(const base::Field& field) {
   } else if constexpr (std::is_enum_v<T>) {
     node.kind = Kind::choice;
     node.names = enum_names<T>();
-  } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
-    node.kind = Kind::only_null;
-    node.nullable = true;
   } else {
     node.kind = Kind::spec;
     node.children = members<T>();

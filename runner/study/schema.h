@@ -11,7 +11,7 @@
 namespace seapile::study {
 
 struct SchemaNode {
-  enum class Kind { number, integer, boolean, string, choice, numbers, only_null, spec, variant };
+  enum class Kind { number, integer, boolean, string, choice, numbers, spec, variant };
 
   base::Field field;  ///< of an alternative: only its key
   Kind kind = Kind::spec;

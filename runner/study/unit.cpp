@@ -57,6 +57,7 @@ constexpr std::array kSymbols = {
     Symbol{"Pa", {.length = -1, .mass = 1, .time = -2}},
     Symbol{"kPa", {.length = -1, .mass = 1, .time = -2, .decimal = 3}},
     Symbol{"MPa", {.length = -1, .mass = 1, .time = -2, .decimal = 6}},
+    Symbol{"cSt", {.length = 2, .time = -1, .decimal = -6}},
     Symbol{"%", {.decimal = -2}},
 };
 
@@ -199,6 +200,7 @@ std::string unit_example(std::string_view unit) {
   if (unit == "Hz") return "20 Hz";
   if (unit == "rad") return "60 deg";
   if (unit == "kg/m3") return "1.5 t/m3";
+  if (unit == "m2/s") return "1 mm2/s";
   return fmt::format("1 {}", unit);
 }
 

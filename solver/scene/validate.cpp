@@ -9,6 +9,7 @@
 
 #include "solver/scene/checks.h"
 #include "solver/scene/validate_basin.h"
+#include "solver/scene/validate_fluid.h"
 
 namespace seapile::scene {
 namespace {
@@ -182,6 +183,18 @@ double deepest(const pile::PileSpec& pile) {
   return std::min(pile.depth.value_or(kInfinity), by_time);
 }
 
+/// The way of the scene's pile; absent where the bed's height is not known, or the pile has none.
+std::optional<WayIntoBed> way_into_bed(const SceneSpec& scene, std::optional<double> bed_height) {
+  if (!scene.pile || !bed_height) return {};
+  const pile::PileSpec& pile = *scene.pile;
+  // Above the highest grain under it, as in check_pile_end(); of a file that height is known.
+  const double above = from_file(scene.bed) ? 0 : 4 * scene.bed.grains.radius.max;
+  const double time = duration(pile), down = deepest(pile);
+  if (!std::isfinite(down)) return {};
+  return WayIntoBed{*bed_height, *bed_height + above, std::isfinite(time) ? motion(pile.driving, time).up : 0, down,
+                    time};
+}
+
 }  // namespace
 
 Problems validate(const SceneSpec& scene, std::optional<double> bed_height) {
@@ -197,6 +210,10 @@ Problems validate(const SceneSpec& scene, std::optional<double> bed_height) {
     check_pile_shape(*scene.pile, scene.bed, problems);
     check_pile_end(*scene.pile, scene.bed, bed_height, problems);
     check_pile_steps(scene, problems);
+  }
+  if (scene.fluid) {
+    const Problems of_fluid = validate_fluid(scene, way_into_bed(scene, bed_height));
+    problems.insert(problems.end(), of_fluid.begin(), of_fluid.end());
   }
   return problems;
 }

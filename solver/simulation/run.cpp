@@ -69,7 +69,10 @@ std::string advance(Simulation& sim, bool keep_impulses) {
 std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
   if (scene.jet) return {{"mesh", 1}, {"fluid", 1}, {"free_surface", 1}};
   if (scene.basin) return {{"mesh", 1}, {"fluid", 1}, {"free_surface", 1}, {"basin", 1}};
-  return {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
+  std::vector<NumericsVersion> versions = {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
+  if (scene.fluid)
+    versions.insert(versions.end(), {{"mesh", 1}, {"fluid", 1}, {"free_surface", 1}, {"basin", 1}, {"coupling", 1}});
+  return versions;
 }
 
 std::vector<Part> parts(const scene::SceneSpec& scene) {
@@ -88,17 +91,23 @@ std::vector<Part> parts(const scene::SceneSpec& scene) {
             {"free_surface", free,
              scene.jet ? "the jet finds its own shape"
              : free    ? "the water's top moves"
-                       : "the top is fixed: \"surface\" is null"}};
+                       : "the top is fixed: \"surface\" is null"},
+            {"coupling", false, water}};
   }
+  const bool wet = scene.fluid.has_value(), free = wet && scene.fluid->surface;
   const std::string dry = "the scene is dry: \"fluid\" is null";
   return {{"grains", true, "the bed has " + std::to_string(scene.bed.grains.count) + " grains"},
           {"walls", true, "the box holds the grains"},
           {"pile", scene.pile.has_value(), scene.pile ? "the scene drives a pile" : "the scene is the bed alone"},
           {"restitution", scene.bed.grains.restitution > 0,
            scene.bed.grains.restitution > 0 ? "the grains rebound" : "the coefficient of restitution is 0"},
-          {"mesh", false, dry},
-          {"fluid", false, dry},
-          {"free_surface", false, dry}};
+          {"mesh", wet, wet ? "the fluid lives on it" : dry},
+          {"fluid", wet, wet ? "the scene is saturated" : dry},
+          {"free_surface", free,
+           !wet   ? dry
+           : free ? "the fluid's top moves"
+                  : "the top is fixed: \"surface\" is null"},
+          {"coupling", wet, wet ? "grains and fluid act on each other" : dry}};
 }
 
 RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed,

@@ -29,7 +29,7 @@ std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene);
 
 /// A part of the solver, and whether this scene was built with it.
 struct Part {
-  std::string name;    ///< "grains", "walls", "pile", "mesh", "fluid", "free_surface"
+  std::string name;  ///< "grains", "walls", "pile", "mesh", "fluid", "free_surface", "coupling"
   bool built = false;
   std::string reason;  ///< why it was built, or left out
 };

@@ -35,6 +35,30 @@ std::vector<std::string> ids(const Plan& plan) {
   return ids;
 }
 
+// Otherwise a dry and a saturated study on the same bed would each make the other's bed out of date.
+TEST_F(PlanTest, ABedIsNotAskedForTheNumericsOfTheFluidAboveIt) {
+  complete_all();
+  study.cases[0].scene.fluid.emplace();
+  const Plan all = make_plan(
+      study,
+      [](const scene::SceneSpec& scene) {
+        auto numerics = kNumerics;
+        if (scene.fluid) numerics.push_back({"coupling", 1});
+        return numerics;
+      },
+      disk.look());
+  EXPECT_EQ(fake::task(all, "cone").decision.action, Action::fresh);
+  EXPECT_EQ(fake::task(all, "bed").decision.action, Action::fresh);
+  EXPECT_THAT(fake::task(all, "flat").decision.reason, HasSubstr("coupling none -> 1"));
+}
+
+TEST(LabelLine, MembersOfAPartStandAtTheirPaths) {
+  EXPECT_EQ(label_line({{"pile.tip", "conical(apex_angle=0.5 rad)"}, {"fluid", "null"}}),
+            "pile.tip=conical(apex_angle=0.5 rad), fluid=null");
+  EXPECT_EQ(label_line({{"fluid", "density=1300 kg/m3"}}), "fluid.density=1300 kg/m3");
+  EXPECT_EQ(label_line({{"fluid", "default"}}), "fluid=default");
+}
+
 TEST_F(PlanTest, OnAnEmptyDiskEveryCaseIsRunAndBedsComeFirstAndOnce) {
   study = fake::make_study({{"a", "x"}, {"b", "x"}, {"c", "y"}, {"d", "x"}});
   const Plan all = plan();

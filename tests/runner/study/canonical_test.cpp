@@ -62,7 +62,7 @@ class AnyValue {
     } else if constexpr (kIsVariant<T>) {
       emplace_alternative(member, random_() % std::variant_size_v<T>);
       std::visit([&](auto& alternative) { fill(alternative); }, member);
-    } else if constexpr (!std::is_same_v<T, base::OnlyNull>) {
+    } else {
       fill(member);
     }
   }
@@ -203,6 +203,16 @@ TEST(Canonical, TextOfTheDefaultPileInABed) {
       R"({"bed":"b3d","contact":{"damping":10,"precision":"single","step":5e-04,"stiffness":0.125,"substeps":10},"fluid":null,)"
       R"("pile":{"depth":1.2,"driving":{"constant":{"speed":0.06}},"duration":null,"friction":0.5,"radius":0.125,)"
       R"("tip":{"conical":{"apex_angle":1.0471975511965976}}}})");
+}
+
+TEST(Canonical, TextOfTheDefaultFluid) {
+  scene::SceneSpec scene;
+  scene.pile.emplace();
+  scene.fluid.emplace();
+  const std::string text = canonical_text(scene, "b3d");
+  EXPECT_NE(text.find(R"("fluid":{"bottom":"slip")"), std::string::npos) << text;
+  EXPECT_EQ(scene_from_json(to_json(scene)), scene);
+  EXPECT_EQ(canonical_text(scene.bed), canonical_text(scene::BedSpec{})) << "what is poured on a bed changes no bed";
 }
 
 // These ids stand in every catalogue that exists: a change of this test loses every result that was ever kept.

@@ -105,6 +105,35 @@ TEST_F(Expand, LabelsOfPartsAreReadable) {
               ElementsAre("pile=null", "pile=default", "pile=depth=50 cm, tip=flat"));
 }
 
+// Of the same axis: what is null is dry, and what is an object has a fluid with these members.
+TEST_F(Expand, DryAndSaturatedCasesStandInOneStudy) {
+  const Study fluids =
+      study(R"("base": {"pile": {}}, "axes": {"fluid": [null, {"density": 1000}, {"density": 1300}]})");
+  EXPECT_THAT(labels(fluids), ElementsAre("fluid=null", "fluid=density=1000 kg/m3", "fluid=density=1300 kg/m3"));
+  EXPECT_FALSE(fluids.cases[0].scene.fluid);
+  ASSERT_TRUE(fluids.cases[2].scene.fluid);
+  EXPECT_EQ(fluids.cases[1].scene.fluid, scene::FluidSpec{});
+  EXPECT_EQ(fluids.cases[2].scene.fluid->density, 1300);
+  EXPECT_EQ(fluids.cases[0].bed_id, fluids.cases[2].bed_id) << "what is poured on a bed changes no bed";
+
+  const Study campaign = study(R"("base": {"pile": {}}, "axes": {"pile.driving.constant.speed": [0.02, 0.06, 0.2],
+                                  "pile.tip": ["flat", "conical"], "fluid": [null, {}]})");
+  EXPECT_EQ(campaign.cases.size(), 12u);
+  EXPECT_EQ(labels(campaign)[1], "pile.driving.constant.speed=0.02 m/s pile.tip=flat fluid=default");
+}
+
+TEST_F(Expand, AnAxisInsideTheFluidIsOfTheSaturatedCases) {
+  EXPECT_THAT(labels(study(R"("base": {"pile": {}, "fluid": {"depth": "3 m"}},
+                              "axes": {"fluid.density": ["1 t/m3", 1300]})")),
+              ElementsAre("fluid.density=1 t/m3", "fluid.density=1300 kg/m3"));
+  const Study common = study(R"("base": {"pile": {}}, "axes": {"fluid": [null, {}, {"density": 1300}]},
+                                "when": [{"if": {"fluid": {}}, "set": {"fluid.depth": "3 m"}}])");
+  EXPECT_FALSE(common.cases[0].scene.fluid) << "a condition on the fluid holds where there is one";
+  EXPECT_EQ(common.cases[1].scene.fluid->depth, 3);
+  EXPECT_EQ(common.cases[2].scene.fluid->depth, 3);
+  EXPECT_EQ(common.cases[2].scene.fluid->density, 1300);
+}
+
 TEST_F(Expand, ExcludedCasesAreLeftOut) {
   EXPECT_THAT(labels(study(R"("axes": {"pile.tip": ["flat", "conical"], "pile.depth": [0.5, "1 m"]},
                               "exclude": [{"pile.tip": "flat", "pile.depth": "100 cm"}])")),

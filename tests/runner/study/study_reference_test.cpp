@@ -59,8 +59,6 @@ class Table {
     } else if constexpr (std::is_enum_v<T>) {
       row(path, enum_names<T>()[static_cast<std::size_t>(member)], fmt::format("{}", fmt::join(enum_names<T>(), ", ")),
           field.meaning);
-    } else if constexpr (std::is_same_v<T, base::OnlyNull>) {
-      row(path, "null", "null", field.meaning);
     } else if constexpr (std::is_same_v<T, bool>) {
       row(path, member ? "true" : "false", "true, false", field.meaning);
     } else if constexpr (std::is_arithmetic_v<T>) {

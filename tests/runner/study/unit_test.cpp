@@ -34,6 +34,7 @@ TEST(Quantity, ConvertsToTheUnitOfTheField) {
   EXPECT_EQ(in("9.81 m/s²", "m/s2"), 9.81);
   EXPECT_EQ(in("9.81 m s^-2", "m/s2"), 9.81);
   EXPECT_EQ(in("80 %", "-"), 0.8);
+  for (const char* water : {"1e-6 m2/s", "1 mm2/s", "1 mm²/s", "1 cSt"}) EXPECT_EQ(in(water, "m2/s"), 1e-6) << water;
 }
 
 TEST(Quantity, WhiteSpaceIsFree) {

@@ -102,12 +102,24 @@ TEST(Parts, ADrySceneHasNoMeshNoFluidNoFreeSurfaceAndSaysWhy) {
   for (const Part& part : all) {
     (part.built ? built : left_out).push_back(part.name);
     EXPECT_FALSE(part.reason.empty()) << part.name;
-    if (part.name == "mesh" || part.name == "fluid" || part.name == "free_surface") {
+    if (part.name == "mesh" || part.name == "fluid" || part.name == "free_surface" || part.name == "coupling") {
       EXPECT_THAT(part.reason, testing::HasSubstr("dry")) << part.name;
     }
   }
   EXPECT_THAT(built, testing::UnorderedElementsAre("grains", "walls", "pile"));
-  EXPECT_THAT(left_out, testing::IsSupersetOf({"mesh", "fluid", "free_surface"}));
+  EXPECT_THAT(left_out, testing::IsSupersetOf({"mesh", "fluid", "free_surface", "coupling"}));
+}
+
+TEST(Parts, ASaturatedSceneHasAllThatADryOneLeavesOutForTheFluid) {
+  scene::SceneSpec scene = small_drive(100, 0.5, pile::FlatTip{});
+  scene.fluid.emplace();
+  for (const Part& part : parts(scene)) {
+    EXPECT_EQ(part.built, part.name != "restitution") << part.name;
+    EXPECT_FALSE(part.reason.empty()) << part.name;
+  }
+  scene.fluid->surface.reset();
+  for (const Part& part : parts(scene))
+    if (part.name == "free_surface") EXPECT_FALSE(part.built) << part.reason;
 }
 
 TEST(Parts, ABedAloneIsBuiltWithoutAPile) {

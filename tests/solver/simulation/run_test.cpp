@@ -178,6 +178,17 @@ TEST(NumericsVersions, NameEveryModuleOnce) {
   EXPECT_THAT(names, testing::UnorderedElementsAre("grains", "pile", "bed", "record"));
 }
 
+// Results of dry scenes stay fresh, whatever becomes of the fluid.
+TEST(NumericsVersions, ASaturatedSceneHasThoseOfADryOneAndOfTheFluid) {
+  scene::SceneSpec scene;
+  const std::size_t dry = numerics_versions(scene).size();
+  scene.fluid.emplace();
+  const std::vector<NumericsVersion> all = numerics_versions(scene);
+  std::vector<std::string> of_fluid;
+  for (std::size_t i = dry; i < all.size(); ++i) of_fluid.push_back(all[i].module);
+  EXPECT_THAT(of_fluid, testing::ElementsAre("mesh", "fluid", "free_surface", "basin", "coupling"));
+}
+
 TEST(NumericsVersions, ABasinHasThoseOfTheWaterAndItsOwn) {
   scene::SceneSpec scene;
   scene.basin.emplace();
