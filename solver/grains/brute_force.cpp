@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "solver/grains/body_contacts.h"
@@ -32,8 +33,22 @@ class Step {
  public:
   Step(AllPairs& system, Grains& grains, const Box& box, const ContactLaw& law, RigidBody* body,
        std::span<const double> body_path, ContactTotals& totals)
-      : system_(system), grains_(grains), box_(box), law_(law), body_(body), path_(body_path), totals_(totals),
-        h_(law.step / substeps(law)), moved_(grains.count()) {}
+      : system_(system),
+        grains_(grains),
+        box_(box),
+        law_(law),
+        body_(body),
+        path_(body_path),
+        totals_(totals),
+        h_(law.step / substeps(law)),
+        pull_(law.gravity),
+        moved_(grains.count()) {
+    if (!grains.push.empty() && grains.push.size() != grains.count())
+      throw std::logic_error("a push for some grains only");
+    double largest = 0;
+    for (const base::Vec2& a : grains.push) largest = std::max(largest, norm(a));
+    pull_ += largest;
+  }
 
   ContactReport run() {
     ContactReport report;
@@ -117,7 +132,11 @@ class Step {
   Across across(const Contact& c) const { return across(c, system_.body, body_ ? body_->velocity : base::Vec2{}); }
 
   void push_freely(int k) {
-    for (Motion<double>& m : system_.body) m.vy -= h_ * law_.gravity;
+    for (std::size_t i = 0; i < system_.body.size(); ++i) {
+      Motion<double>& m = system_.body[i];
+      if (!grains_.push.empty()) m.vx += h_ * grains_.push[i].x;
+      m.vy += h_ * ((grains_.push.empty() ? 0 : grains_.push[i].y) - law_.gravity);
+    }
     if (!body_) return;
     body_->velocity = body_velocity(k);
     if (path_.empty())
@@ -149,7 +168,7 @@ class Step {
   }
   double rigid_normal(const Contact& c, double vn) const {
     double wanted = std::min(-c.gap / h_, push_speed(law_, system_.smallest_radius));
-    const bool impact = c.approach < -2 * law_.gravity * law_.step && c.gap + h_ * c.approach < 0;
+    const bool impact = c.approach < -2 * pull_ * law_.step && c.gap + h_ * c.approach < 0;
     if (law_.restitution > 0 && impact) wanted = std::max(wanted, -law_.restitution * c.approach);
     return std::max(0.0, c.pn + (wanted - vn) / c.inverse_mass);
   }
@@ -203,6 +222,10 @@ class Step {
       const base::Vec2 press{c.pn * c.nx - c.pt * c.ny, c.pn * c.ny + c.pt * c.nx};
       totals_.body_work -= 0.5 * dot(press, body_before + body_->velocity);
     }
+    for (std::size_t i = 0; i < grains_.push.size(); ++i) {
+      const Motion<double>&m0 = before[i], &m1 = system_.body[i];
+      totals_.push_work += 0.5 * h_ * grains_.mass[i] * dot(grains_.push[i], {m0.vx + m1.vx, m0.vy + m1.vy});
+    }
   }
 
   void move() {
@@ -217,7 +240,7 @@ class Step {
       const Across v = across(c);
       const base::Vec2 other = c.j >= 0 ? moved_[c.j] : c.j == kBody ? body_->moved : base::Vec2{};
       const double gap = c.gap + c.nx * (other.x - moved_[c.i].x) + c.ny * (other.y - moved_[c.i].y);
-      const bool impact = c.approach < -2 * law_.gravity * law_.step;
+      const bool impact = c.approach < -2 * pull_ * law_.step;
       const bool stopped = c.pn > 0 || v.normal > 0.5 * c.approach;
       if (!impact || !stopped || gap >= -c.approach * h_) continue;
       const double pn = std::max(0.0, -(v.normal + law_.restitution * c.approach) / c.inverse_mass);
@@ -228,8 +251,13 @@ class Step {
       totals_.dissipation -= 0.5 * (pn * (v.normal + after.normal) + pt * (v.tangential + after.tangential));
       const base::Vec2 press{pn * c.nx - pt * c.ny, pn * c.ny + pt * c.nx};
       if (c.j == kBody) totals_.body_work -= dot(press, body_->velocity);
-      // The balance takes gravity's work on the mean velocity of a sub-step; this shifts the next one's start.
+      // The balance takes gravity's work, and the push's, on the mean velocity of a sub-step; this shifts the next
+      // one's start.
       if (c.j < 0) totals_.dissipation -= 0.5 * h_ * law_.gravity * press.y;
+      if (grains_.push.empty()) continue;
+      const double late = 0.5 * h_ * dot((c.j < 0 ? base::Vec2{} : grains_.push[c.j]) - grains_.push[c.i], press);
+      totals_.push_work -= late;
+      totals_.dissipation -= late;
     }
   }
 
@@ -284,6 +312,7 @@ class Step {
   std::span<const double> path_;
   ContactTotals& totals_;
   double h_;
+  double pull_;                    ///< gravity and the largest push together [m/s2]
   std::vector<base::Vec2> moved_;  ///< path of each grain since the start of the step [m]
   std::vector<Contact> contacts_;
 };

@@ -63,14 +63,15 @@ struct ContactKernels {
   void (*sweep)(ContactBlock<Real>* block, const std::uint8_t* active, std::int32_t first, std::int32_t last,
                 BodyGroup<Real>* bodies, Real friction, const Softness<Real>& soft, SweepSums* sums);
 
-  /// Start of the first sub-step for groups [first, last): gravity and the warm start of refresh(); drift zero.
-  void (*begin)(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last, Real h,
-                Real gravity, BodySums* sums);
+  /// Start of the first sub-step for groups [first, last): gravity, push and the warm start of refresh(); drift zero.
+  /// `push`: four of them for each group; null: none.
+  void (*begin)(BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push, std::int32_t first,
+                std::int32_t last, Real h, Real gravity, BodySums* sums);
 
-  /// Start of a later sub-step for groups [first, last): drift by the last velocity, then gravity and the warm start,
-  /// which per body is the contacts' velocity change of the sub-step before: v <- v + (v - before).
-  void (*advance)(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last, Real h,
-                  Real gravity, BodySums* sums);
+  /// Start of a later sub-step for groups [first, last): drift by the last velocity, then gravity, push and the warm
+  /// start, which per body is the contacts' velocity change of the sub-step before: v <- v + (v - before).
+  void (*advance)(BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push, std::int32_t first,
+                  std::int32_t last, Real h, Real gravity, BodySums* sums);
 
   // Non-smooth method.
 

@@ -19,6 +19,10 @@ template <class Real>
 inline const Real* numbers(const Before<Real>* records) {
   return reinterpret_cast<const Real*>(records);
 }
+template <class Real>
+inline const Real* numbers(const Push<Real>* records) {
+  return reinterpret_cast<const Real*>(records);
+}
 inline const double* numbers(const Disc* records) { return reinterpret_cast<const double*>(records); }
 
 /// Adds sixteen lanes in their order.
@@ -252,9 +256,19 @@ inline __attribute__((always_inline)) typename Lanes<Real>::V last_numbers(const
   }
 }
 
-template <class Real>
-void begin(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last, Real h, Real gravity,
-           BodySums* sums) {
+/// What gravity, and the push where there is one, add to the velocities of a group in a sub-step, from number k on.
+template <bool pushed, class Real>
+inline __attribute__((always_inline)) typename Lanes<Real>::V fall_of(const Row<Real>& row, const Push<Real>* push,
+                                                                      std::int32_t group, int k) {
+  using V = typename Lanes<Real>::V;
+  const V fall = load<V>(row.fall + k);
+  if constexpr (!pushed) return fall;
+  return fall + load<V>(row.time + k) * load<V>(numbers(push + 4 * static_cast<std::ptrdiff_t>(group)) + k);
+}
+
+template <bool pushed, class Real>
+void begin_rows(BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push, std::int32_t first,
+                std::int32_t last, Real h, Real gravity, BodySums* sums) {
   using V = typename Lanes<Real>::V;
   constexpr int W = Lanes<Real>::kWidth;
   const Row<Real> row(h, gravity);
@@ -266,7 +280,7 @@ void begin(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, st
       const int k = p * W;
       const V now = load<V>(motion + k), kept = load<V>(old + k), moving = load<V>(row.moving + k);
       const V contact = moving * kept, half_mass = load<V>(row.weight + k) * last_numbers(old, p);
-      const V start = now + load<V>(row.fall + k);
+      const V start = now + fall_of<pushed>(row, push, group, k);
       store(motion + kLanes + k, V{});
       store(motion + k, V(start + contact));
       store(old + k, V(moving * now + load<V>(row.still + k) * kept));
@@ -279,8 +293,14 @@ void begin(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, st
 }
 
 template <class Real>
-void advance(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last, Real h, Real gravity,
-             BodySums* sums) {
+void begin(BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push, std::int32_t first, std::int32_t last,
+           Real h, Real gravity, BodySums* sums) {
+  (push ? begin_rows<true, Real> : begin_rows<false, Real>)(bodies, before, push, first, last, h, gravity, sums);
+}
+
+template <bool pushed, class Real>
+void advance_rows(BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push, std::int32_t first,
+                  std::int32_t last, Real h, Real gravity, BodySums* sums) {
   using V = typename Lanes<Real>::V;
   constexpr int W = Lanes<Real>::kWidth;
   const Row<Real> row(h, gravity);
@@ -292,7 +312,7 @@ void advance(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, 
     for (int p = 0; p < kLanes / W; ++p) {
       const int k = p * W;
       const V now = load<V>(motion + k), kept = load<V>(old + k), moving = load<V>(row.moving + k);
-      const V fall = load<V>(row.fall + k), half_mass = load<V>(row.weight + k) * last_numbers(old, p);
+      const V fall = fall_of<pushed>(row, push, group, k), half_mass = load<V>(row.weight + k) * last_numbers(old, p);
       const V change = moving * (now - kept), contact = change - fall, start = now + fall;
       store(drift + k, V(load<V>(drift + k) + load<V>(row.time + k) * now));
       store(motion + k, V(now + change));
@@ -308,6 +328,12 @@ void advance(BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, 
   for (int k = 0; k < kLanes; ++k)
     if (k % 4 != 1) lane[k] = 0;
   sums->lift += ordered_sum(lane);
+}
+
+template <class Real>
+void advance(BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push, std::int32_t first,
+             std::int32_t last, Real h, Real gravity, BodySums* sums) {
+  (push ? advance_rows<true, Real> : advance_rows<false, Real>)(bodies, before, push, first, last, h, gravity, sums);
 }
 
 template <class Real>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "solver/grains/contact_step.h"
 #include "solver/grains/nonsmooth.h"
@@ -13,6 +14,8 @@ template <class Real>
 ContactReport integrate(ContactSystem<Real>& system, Grains& grains, const Box& box, const ContactLaw& law,
                         RigidBody* body, std::span<const double> body_path, bool keep_impulses, ContactTotals& totals,
                         const Team& team, base::Profile& profile) {
+  if (!grains.push.empty() && grains.push.size() != grains.count())
+    throw std::logic_error("a push for some grains only");
   const auto method = law.nonsmooth ? integrate_rigidly<Real> : integrate_softly<Real>;
   return method(system, grains, box, law, body, body_path, keep_impulses, totals, team, profile);
 }

@@ -72,6 +72,7 @@ struct ContactTotals {
   std::vector<Impulse> feature;        ///< of the rigid body, by feature
   double body_work = 0;                ///< of the rigid body on the grains [J/m]
   double dissipation = 0;              ///< taken out by the contacts [J/m]
+  double push_work = 0;                ///< of the grains' push on them [J/m]
 };
 
 /// What one step admits about itself.
@@ -83,6 +84,13 @@ struct ContactReport {
   double residual = 0;
   int sweeps = 0;            ///< over all contacts
   bool rebuilt = false;      ///< the neighbour list was made anew
+};
+
+/// What the push of a tile's grains does in a step (formulation.md 2.6).
+struct PushSums {
+  double power = 0;   ///< sum m a.v at the start of the step [W/m]
+  double work = 0;    ///< on the mean of the velocities at both ends of each sub-step [J/m]
+  double shared = 0;  ///< what the contacts' impulses have of it: half of sum h a.p [J/m]
 };
 
 /// Everything that the contact solver keeps for its grains; Real is the number format of velocities and impulses.
@@ -102,9 +110,11 @@ struct ContactSystem {
   Regions regions;                           ///< of the grains
   base::AlignedVector<Before<Real>> before;  ///< (grains, filled up to a multiple of four, and wall points)
   base::AlignedVector<Iterate<Real>> iterate;  ///< of the non-smooth method, (blocks); empty for soft impulses
+  base::AlignedVector<Push<Real>> push;        ///< (grains, filled up to a multiple of four); empty: none
   base::AlignedVector<SweepSums> sweep_sums;   ///< (colours)
   base::AlignedVector<BodySums> body_sums;     ///< (tiles)
   std::vector<double> approach, body_approach;  ///< normal velocities at the start of the step, where e > 0 [m/s]
+  std::vector<PushSums> push_sums;              ///< (tiles); empty where there is no push
   std::vector<double> path;    ///< longest squared path of a grain in this step, (tiles) [m2]
   std::vector<double> scratch; ///< one number of each tile, while the largest is sought
 

@@ -34,6 +34,16 @@ bool list_is_worn(ContactSystem<Real>& system, const Grains& grains, double reac
 }
 
 template <class Real>
+base::Vec2 velocity(const Motion<Real>& m) {
+  return {static_cast<double>(m.vx), static_cast<double>(m.vy)};
+}
+
+template <class Real>
+base::Vec2 in_doubles(const Push<Real>& push) {
+  return {static_cast<double>(push.x), static_cast<double>(push.y)};
+}
+
+template <class Real>
 double squared_speed(const Motion<Real>& m) {
   const double vx = static_cast<double>(m.vx), vy = static_cast<double>(m.vy);
   return vx * vx + vy * vy;
@@ -45,13 +55,19 @@ double larger_or_nan(double a, double b) { return a < b || std::isnan(b) ? b : a
 }  // namespace
 
 template <class Real>
-Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, const RigidBody* body,
-                         std::span<const double> body_path, base::Crew* crew) {
+Closing expected_closing(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law,
+                         const RigidBody* body, std::span<const double> body_path, base::Crew* crew) {
   const double fastest = largest(system, crew, [&](std::int32_t i) { return squared_speed(system.motion(i)); });
+  const double push = grains.push.empty() ? 0 : std::sqrt(largest(system, crew, [&](std::int32_t i) {
+    return dot(grains.push[i], grains.push[i]);
+  }));
   Closing closing;
+  closing.pull = law.gravity + push;
   closing.body_speed = body_path.empty() ? (body ? norm(body->velocity) : 0) : std::abs(body_path.back()) / law.step;
   closing.margin =
       closing.body_speed * law.step + 4 * law.gravity * law.step * law.step + 0.01 * system.smallest_radius;
+  // A push that takes a grain farther than the smallest radius ends the run: no list needs to hold what it might reach.
+  closing.margin += 4 * std::min(push * law.step * law.step, system.smallest_radius);
   closing.reach = 6 * law.step * std::max(std::sqrt(fastest), closing.body_speed) + closing.margin;
   closing.likely = 2 * law.step * std::sqrt(fastest) + closing.margin;
   return closing;
@@ -89,6 +105,44 @@ void move_places(ContactSystem<Real>& system, Grains& grains, std::int32_t tile,
     longest = larger_or_nan(longest, square);
   }
   system.path[tile] = longest;
+}
+
+template <class Real>
+const Push<Real>* hold_push(ContactSystem<Real>& system, const Grains& grains) {
+  system.push.resize((grains.push.size() + 3) / 4 * 4);
+  system.push_sums.assign(grains.push.empty() ? 0 : system.regions.tiles(), {});
+  return system.push.empty() ? nullptr : system.push.data();
+}
+
+template <class Real>
+void lay_out_push(ContactSystem<Real>& system, const Grains& grains, std::int32_t tile) {
+  if (system.push.empty()) return;
+  double power = 0;
+  const std::int32_t last = system.regions.first_grain(tile + 1);
+  for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i) {
+    system.push[i] = {static_cast<Real>(grains.push[i].x), static_cast<Real>(grains.push[i].y)};
+    power += grains.mass[i] * dot(in_doubles(system.push[i]), velocity(system.motion(i)));
+  }
+  system.push_sums[tile].power = power;
+}
+
+template <class Real>
+void sum_push(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law, std::int32_t tile) {
+  if (system.push.empty()) return;
+  const double h = law.step / substeps(law);
+  double path = 0, power = 0, thrust = 0;
+  const std::int32_t last = system.regions.first_grain(tile + 1);
+  for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i) {
+    const base::Vec2 push = grains.mass[i] * in_doubles(system.push[i]), v = velocity(system.motion(i));
+    const Drift<Real>& drift = system.drift(i);
+    path += dot(push, base::Vec2{static_cast<double>(drift.dx), static_cast<double>(drift.dy)} + h * v);
+    power += dot(push, v);
+    thrust += dot(push, in_doubles(system.push[i]) + base::Vec2{0, -law.gravity});
+  }
+  PushSums& sums = system.push_sums[tile];
+  const double gained = power - sums.power;
+  sums.work = path - 0.5 * h * gained;
+  sums.shared = 0.5 * h * (gained - law.step * thrust);
 }
 
 void move_body(RigidBody& body) {
@@ -138,13 +192,16 @@ void keep_step_impulses(ContactBlocks<Real>& blocks, std::int32_t first, std::in
   }
 }
 
-#define SEAPILE_INSTANTIATE(Real)                                                                         \
-  template Closing expected_closing(ContactSystem<Real>&, const ContactLaw&, const RigidBody*,            \
-                                    std::span<const double>, base::Crew*);                                \
-  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double, \
-                           base::Crew*);                                                                  \
-  template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                         \
-  template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                         \
+#define SEAPILE_INSTANTIATE(Real)                                                                             \
+  template Closing expected_closing(ContactSystem<Real>&, const Grains&, const ContactLaw&, const RigidBody*, \
+                                    std::span<const double>, base::Crew*);                                    \
+  template const Push<Real>* hold_push(ContactSystem<Real>&, const Grains&);                                  \
+  template void lay_out_push(ContactSystem<Real>&, const Grains&, std::int32_t);                              \
+  template void sum_push(ContactSystem<Real>&, const Grains&, const ContactLaw&, std::int32_t);               \
+  template bool keep_lists(ContactSystem<Real>&, Grains&, const Box&, RigidBody*, const Closing&, double,     \
+                           base::Crew*);                                                                      \
+  template void move_places(ContactSystem<Real>&, Grains&, std::int32_t, double);                             \
+  template void close_step(ContactSystem<Real>&, ContactTotals&, ContactReport&);                             \
   template void keep_step_impulses(ContactBlocks<Real>&, std::int32_t, std::int32_t, bool);
 SEAPILE_INSTANTIATE(float)
 SEAPILE_INSTANTIATE(double)

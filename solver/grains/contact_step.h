@@ -15,14 +15,15 @@ namespace seapile::grains {
 
 /// How far gaps may close within the coming step.
 struct Closing {
+  double pull = 0;        ///< gravity and the largest push together [m/s2]
   double body_speed = 0;  ///< of the rigid body [m/s]
   double margin = 0;      ///< what does not come from the bodies' own velocities [m]
   double reach = 0;       ///< any gap, at three times the largest speed of both bodies, along both axes [m]
   double likely = 0;      ///< any gap, at the largest speed of both bodies [m]
 };
 template <class Real>
-Closing expected_closing(ContactSystem<Real>& system, const ContactLaw& law, const RigidBody* body,
-                         std::span<const double> body_path, base::Crew* crew);
+Closing expected_closing(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law,
+                         const RigidBody* body, std::span<const double> body_path, base::Crew* crew);
 
 /// Makes the lists anew where they might miss a contact of the coming step, and places the points of the walls. True
 /// when the neighbour list was made anew.
@@ -33,6 +34,18 @@ bool keep_lists(ContactSystem<Real>& system, Grains& grains, const Box& box, Rig
 /// Adds the path of a step, drift + h v, to the places of a tile's grains; sets the tile's longest squared path.
 template <class Real>
 void move_places(ContactSystem<Real>& system, Grains& grains, std::int32_t tile, double h);
+
+/// Makes room for the push of this step's grains; where the kernels find it, null for grains without.
+template <class Real>
+const Push<Real>* hold_push(ContactSystem<Real>& system, const Grains& grains);
+
+/// Start of a step: puts the push of a tile's grains where the kernels find it.
+template <class Real>
+void lay_out_push(ContactSystem<Real>& system, const Grains& grains, std::int32_t tile);
+
+/// End of a step, while the motions are those of its last sub-step: sums what the push of a tile's grains has done.
+template <class Real>
+void sum_push(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law, std::int32_t tile);
 
 /// Moves a body by its path in the step.
 void move_body(RigidBody& body);

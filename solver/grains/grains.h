@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/base/aligned.h"
+#include "solver/base/vec2.h"
 
 namespace seapile::grains {
 
@@ -22,6 +23,7 @@ struct Grains {
   std::vector<std::int64_t> id;      ///< the user's name of each grain, (count)
   base::AlignedVector<Disc> disc;    ///< place and radius, (count)
   std::vector<double> mass;          ///< rho_p pi r^2 [kg/m], (count)
+  std::vector<base::Vec2> push;  ///< acceleration by forces besides gravity and contacts [m/s2], (count); empty: none
 
   std::size_t count() const { return id.size(); }
 };
@@ -56,6 +58,12 @@ struct alignas(64) BodyGroup {
 template <class Real>
 struct alignas(4 * sizeof(Real)) Before {
   Real vx = 0, vy = 0, u = 0, half_mass = 0;
+};
+
+/// A body's acceleration by forces besides gravity and contacts, as the kernels load it [m/s2].
+template <class Real>
+struct alignas(4 * sizeof(Real)) Push {
+  Real x = 0, y = 0, unused[2] = {};
 };
 
 /// Where a body's motion begins in an array of groups, counted in numbers, and back.

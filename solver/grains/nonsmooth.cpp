@@ -9,20 +9,21 @@ namespace {
 /// What v_n + bias >= 0 asks of a contact.
 class Bias {
  public:
-  Bias(const ContactLaw& law, double smallest_radius)
-      : law_(law), inverse_step_(1 / law.step), push_(grains::push_speed(law, smallest_radius)) {}
+  /// `pull`: of gravity and push [m/s2].
+  Bias(const ContactLaw& law, double pull, double smallest_radius)
+      : law_(law), pull_(pull), inverse_step_(1 / law.step), push_(grains::push_speed(law, smallest_radius)) {}
 
   /// `approach`: v_n at the start of the step.
   double operator()(double gap, double approach) const {
     const double bias = std::max(gap * inverse_step_, -push_);
-    // What gravity alone does within two steps is no impact.
-    const bool impact = approach < -2 * law_.gravity * law_.step && gap + law_.step * approach < 0;
+    // What gravity and push alone do within two steps is no impact.
+    const bool impact = approach < -2 * pull_ * law_.step && gap + law_.step * approach < 0;
     return law_.restitution > 0 && impact ? std::min(bias, law_.restitution * approach) : bias;
   }
 
  private:
   const ContactLaw& law_;
-  double inverse_step_, push_;
+  double pull_, inverse_step_, push_;
 };
 
 template <class Real>
@@ -145,21 +146,22 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
                     in_pile = profile.index("pile contacts"), in_places = profile.index("places");
   const ContactKernels<Real>& kernel = contact_kernels<Real>(team.instructions);
   const double dt = law.step;
-  const Bias bias(law, system.smallest_radius);
   const bool restitution = law.restitution > 0;
   ContactReport report;
   Laps serial(profile);
 
-  const Closing closing = expected_closing(system, law, body, body_path, team.crew.get());
+  const Closing closing = expected_closing(system, grains, law, body, body_path, team.crew.get());
   report.rebuilt = keep_lists(system, grains, box, body, closing, dt, team.crew.get());
   serial.lap(in_list);
 
+  const Bias bias(law, closing.pull, system.smallest_radius);
   ContactBlocks<Real>& blocks = system.blocks;
   const Regions& regions = system.regions;
   system.iterate.resize(blocks.block.size());
   std::vector<SolveSums> sums(blocks.colour.size() + 1);  // the last one: of the body
   system.body_sums.assign(regions.tiles(), {});  // begin() fills them; the warm start is no work of its own here
   system.path.assign(regions.tiles(), 0);
+  const Push<Real>* const grain_push = hold_push(system, grains);
   const Nearness near{closing.margin, dt, system.closing, closing.reach};
 
   const base::Vec2 body_before = !body_path.empty() ? base::Vec2{0, -body_path.back() / dt}
@@ -207,9 +209,12 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
       old_body_velocity = body->velocity;
     }
     worker.meet(in_detection);
-    for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile)
-      kernel.begin(system.group.data(), system.before.data(), regions.first_group(tile), regions.first_group(tile + 1),
-                   static_cast<Real>(dt), static_cast<Real>(law.gravity), &system.body_sums[tile]);
+    for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) {
+      lay_out_push(system, grains, tile);
+      kernel.begin(system.group.data(), system.before.data(), grain_push, regions.first_group(tile),
+                   regions.first_group(tile + 1), static_cast<Real>(dt), static_cast<Real>(law.gravity),
+                   &system.body_sums[tile]);
+    }
     worker.lap(in_detection);
 
     while (!solved) {
@@ -248,6 +253,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
       for (std::int32_t group = regions.first_group(tile); group < regions.first_group(tile + 1); ++group)
         for (Drift<Real>& drift : system.group[group].drift) drift = {};
       move_places(system, grains, tile, dt);
+      sum_push(system, grains, law, tile);
     }
     worker.lap(in_places);
   });
@@ -261,6 +267,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   close_step(system, totals, report);
   const SolveSums sum = sum_of(sums);
   totals.dissipation -= sum.work;
+  for (const PushSums& s : system.push_sums) totals.push_work += s.work;
   report.residual = rms(sum);
   return report;
 }

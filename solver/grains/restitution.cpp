@@ -33,11 +33,11 @@ struct Bounce {
   double pn = 0, pt = 0;
 };
 
-/// `last`: normal impulse of the last sub-step [N s/m]. A contact that begins to close in it is left touching, with what
-/// remained of its approach: the step after would take that for the whole.
+/// `threshold`: what gravity and push alone do within two steps [m/s]. `last`: normal impulse of the last sub-step
+/// [N s/m]. A contact that begins to close in it is left touching, with what remained of its approach: the step after
+/// would take that for the whole.
 Bounce bounce(double approach, Across now, double last, double gap, double normal_mass, double tangential_mass,
-              double friction, const ContactLaw& law) {
-  const double threshold = 2 * law.gravity * law.step;
+              double friction, double threshold, const ContactLaw& law) {
   const bool stopped = last > 0 || now.normal > 0.5 * approach;
   const bool closed = approach < -threshold && stopped && gap < -approach * law.step / law.substeps;
   if (!closed) return {};
@@ -48,6 +48,17 @@ Bounce bounce(double approach, Across now, double last, double gap, double norma
 /// The energy balance takes gravity's work on the mean velocity of a sub-step; an impulse between two sub-steps shifts the
 /// second one's start. `lift`: vertical impulse on a grain [N s/m].
 double late_gravity(const ContactLaw& law, double lift) { return 0.5 * law.step / law.substeps * law.gravity * lift; }
+
+/// The same for the push, of whose work this is a part. `second`: a grain, or negative; `p`: impulse on it from the
+/// first grain [N s/m].
+void late_push(const ContactLaw& law, const Grains& grains, std::int32_t first, std::int32_t second, base::Vec2 p,
+               ContactTotals& totals) {
+  if (grains.push.empty()) return;
+  const double late =
+      0.5 * law.step / law.substeps * ((second < 0 ? 0 : dot(grains.push[second], p)) - dot(grains.push[first], p));
+  totals.push_work -= late;
+  totals.dissipation -= late;
+}
 
 Motion<double> as_motion(const RigidBody& body) { return {body.velocity.x, body.velocity.y, 0, body.inverse_mass}; }
 
@@ -75,7 +86,9 @@ void remember_approach(ContactSystem<Real>& system, const RigidBody* body, base:
 }
 
 template <class Real>
-void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law, RigidBody* body, ContactTotals& totals) {
+void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law, double pull, RigidBody* body,
+             ContactTotals& totals) {
+  const double threshold = 2 * pull * law.step;
   ContactBlocks<Real>& blocks = system.blocks;
   for (const Colour& colour : blocks.colour)
     for (std::int32_t b = colour.first; b < colour.last; ++b) {
@@ -95,13 +108,14 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
         const double mass = static_cast<double>(block.mass[lane]);
         const bool wall = b >= colour.first_wall;
         const Bounce p = bounce(approach, now, static_cast<double>(block.pn[lane]), gap, mass, mass / 3,
-                                wall ? law.friction_wall : law.friction_grain, law);
+                                wall ? law.friction_wall : law.friction_grain, threshold, law);
         if (p.pn == 0) continue;
         const double px = p.pn * nx - p.pt * ny, py = p.pn * ny + p.pt * nx;
         push(first, -px, -py, p.pt);
         push(second, px, py, p.pt);
         totals.dissipation -= p.pn * (now.normal + 0.5 * p.pn / mass) + p.pt * (now.tangential + 1.5 * p.pt / mass);
         if (wall) totals.dissipation += late_gravity(law, -py);
+        late_push(law, grains, i, wall ? -1 : j, {px, py}, totals);
         blocks.step_impulse[b].normal[lane] += p.pn;
         blocks.step_impulse[b].tangential[lane] += p.pt;
       }
@@ -118,7 +132,7 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
     const double m = first.inverse_mass + body->inverse_mass, mt = 3 * first.inverse_mass + body->inverse_mass;
     const Disc& disc = grains.disc[c.grain];
     const double gap = nearest_place(*body, {disc.x, disc.y}).distance - disc.radius;
-    const Bounce p = bounce(system.body_approach[k], now, c.pn, gap, 1 / m, 1 / mt, body->friction, law);
+    const Bounce p = bounce(system.body_approach[k], now, c.pn, gap, 1 / m, 1 / mt, body->friction, threshold, law);
     if (p.pn == 0) continue;
     const double px = p.pn * c.nx - p.pt * c.ny, py = p.pn * c.ny + p.pt * c.nx;
     push(grain, -px, -py, p.pt);
@@ -129,13 +143,14 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
     totals.feature[c.feature].y += py;
     totals.body_work -= px * body->velocity.x + py * body->velocity.y;
     totals.dissipation += late_gravity(law, -py);
+    late_push(law, grains, c.grain, -1, {px, py}, totals);
     totals.dissipation -= p.pn * (now.normal + 0.5 * p.pn * m) + p.pt * (now.tangential + 0.5 * p.pt * mt);
   }
 }
 
 template void remember_approach(ContactSystem<float>&, const RigidBody*, base::Vec2);
 template void remember_approach(ContactSystem<double>&, const RigidBody*, base::Vec2);
-template void rebound(ContactSystem<float>&, const Grains&, const ContactLaw&, RigidBody*, ContactTotals&);
-template void rebound(ContactSystem<double>&, const Grains&, const ContactLaw&, RigidBody*, ContactTotals&);
+template void rebound(ContactSystem<float>&, const Grains&, const ContactLaw&, double, RigidBody*, ContactTotals&);
+template void rebound(ContactSystem<double>&, const Grains&, const ContactLaw&, double, RigidBody*, ContactTotals&);
 
 }  // namespace seapile::grains

@@ -27,11 +27,15 @@ Softness<Real> narrow(const Softness<double>& s) {
 
 /// Vertical contact impulse on a tile's grains in the last sub-step [N s/m].
 template <class Real>
-double last_lift(const ContactSystem<Real>& system, const Grains& grains, std::int32_t tile, double fall) {
+double last_lift(const ContactSystem<Real>& system, const Grains& grains, std::int32_t tile, double h, double gravity) {
+  const double fall = h * gravity;
   double lift = 0;
   const std::int32_t last = system.regions.first_grain(tile + 1);
   for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i)
     lift += grains.mass[i] * (static_cast<double>(system.motion(i).vy - system.before[i].vy) + fall);
+  if (system.push.empty()) return lift;
+  for (std::int32_t i = system.regions.first_grain(tile); i < last; ++i)
+    lift -= grains.mass[i] * h * static_cast<double>(system.push[i].y);
   return lift;
 }
 
@@ -52,7 +56,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   report.sweeps = law.substeps;
   Laps serial(profile);
 
-  const Closing closing = expected_closing(system, law, body, body_path, team.crew.get());
+  const Closing closing = expected_closing(system, grains, law, body, body_path, team.crew.get());
   report.rebuilt = keep_lists(system, grains, box, body, closing, law.step, team.crew.get());
   serial.lap(in_list);
 
@@ -61,6 +65,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   system.sweep_sums.assign(blocks.colour.size(), {});
   system.body_sums.assign(regions.tiles(), {});
   system.path.assign(regions.tiles(), 0);
+  const Push<Real>* const grain_push = hold_push(system, grains);
   const Nearness near{closing.margin, law.step, system.closing, closing.reach};
   BodySweep body_sweep;
   base::Vec2 body_before;  // velocity of the body at the start of the sub-step
@@ -81,6 +86,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
 
     // Detection: normals and gaps, and the velocity change by the impulses kept from the last step.
     detect(worker, in_detection, system, refresh);
+    for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) lay_out_push(system, grains, tile);
     if (worker.leads()) {
       if (body) detect_body_contacts(*body, grains, system);
       if (law.restitution > 0) {
@@ -91,11 +97,11 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
     worker.meet(in_detection);
 
     for (int k = 0; k < law.substeps; ++k) {
-      // A tile begins with gravity and warm start, then come its contacts, while its bodies are in the cache.
+      // A tile begins with gravity, push and warm start, then come its contacts, while its bodies are in the cache.
       worker.climb(in_sweeps, [&](std::int32_t region) {
         const Region& r = regions[region];
         if (r.is_tile())
-          (k == 0 ? kernel.begin : kernel.advance)(system.group.data(), system.before.data(),
+          (k == 0 ? kernel.begin : kernel.advance)(system.group.data(), system.before.data(), grain_push,
                                                    regions.first_group(r.first_tile), regions.first_group(r.last_tile),
                                                    static_cast<Real>(h), static_cast<Real>(law.gravity),
                                                    &system.body_sums[r.first_tile]);
@@ -134,7 +140,8 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
     std::int64_t own_touching = 0;
     for (std::int32_t tile = worker.first_tile; tile < worker.last_tile; ++tile) {
       move_places(system, grains, tile, h);
-      system.body_sums[tile].lift += last_lift(system, grains, tile, h * law.gravity);
+      system.body_sums[tile].lift += last_lift(system, grains, tile, h, law.gravity);
+      sum_push(system, grains, law, tile);
     }
     worker.each([&](std::int32_t region) { own_touching += touching_in(blocks, region); });
     touching += own_touching;
@@ -142,7 +149,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   });
 
   if (body) move_body(*body);
-  if (law.restitution > 0) rebound(system, grains, law, body, totals);
+  if (law.restitution > 0) rebound(system, grains, law, closing.pull, body, totals);
   close_step(system, totals, report);
 
   // Ordered sums.
@@ -151,6 +158,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   for (const BodySums& s : system.body_sums) warm_work += s.work, lift += s.lift;
   // The impulses' work on the mean of the velocities at both ends of a sub-step (formulation.md 2.6).
   totals.dissipation += kept_work - warm_work - sweep_work - body_sweep.work - 0.5 * h * law.gravity * lift;
+  for (const PushSums& s : system.push_sums) totals.dissipation += s.shared, totals.push_work += s.work;
   if (touching > 0)
     report.residual = std::sqrt((residual + body_sweep.residual) / (static_cast<double>(touching) * law.substeps));
   return report;

@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -90,7 +91,8 @@ void take_contacts(const grains::AllPairs& system, std::size_t, Parts& parts) {
   parts.add("pairs/impulse", "N s/m", "normal and tangential impulse of the last sub-step", 2, Entity::contact, std::move(impulse));
 }
 
-Parts take(const Simulation& sim) {
+/// `pushed`: with the grains' push and its work, as for grains that have one.
+Parts take(const Simulation& sim, bool pushed) {
   Parts parts;
   const std::size_t count = sim.grains.count();
   parts.add("clock/step", "-", "steps done", 1, Entity::run, std::vector<std::int64_t>{sim.clock.step});
@@ -130,7 +132,22 @@ Parts take(const Simulation& sim) {
   const auto& g = sim.gathering;
   parts.add("gathering", "-", "time, travel, place, residual, overlap, steps since the last record", 1, Entity::run,
             std::vector<double>{g.time, g.travel, g.position, g.residual, g.overlap, static_cast<double>(g.steps)});
+  if (!pushed) return parts;
+
+  std::vector<double> push;
+  for (const base::Vec2& a : sim.grains.push) push.insert(push.end(), {a.x, a.y});
+  push.resize(2 * count);
+  parts.add("grains/push", "m/s2", "acceleration by forces besides gravity and contacts", 2, Entity::grain,
+            std::move(push));
+  parts.add("totals/push_work", "J/m", "work of the push since the start", 1, Entity::run,
+            std::vector<double>{t.push_work});
   return parts;
+}
+
+Parts take(const Simulation& sim) { return take(sim, !sim.grains.push.empty()); }
+
+bool is_pushed(const std::vector<Array>& state) {
+  return std::ranges::any_of(state, [](const Array& array) { return array.info.name == "grains/push"; });
 }
 
 /// Hands out the arrays of a snapshot by name, typed.
@@ -249,7 +266,7 @@ void check_lists(const Source& source, std::size_t grain_count) {
 
 /// Throws unless `state` could be the state of this simulation.
 void check(const Simulation& sim, const std::vector<Array>& state) {
-  const Parts mine = take(sim);
+  const Parts mine = take(sim, is_pushed(state));
   const auto refuse = [](const std::string& name, const char* why) { throw std::invalid_argument("state: " + name + ": " + why); };
   for (std::size_t k = 0; k < std::max(mine.arrays.size(), state.size()); ++k) {
     if (k >= state.size()) refuse(mine.arrays[k].first.name, "missing");
@@ -258,7 +275,8 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
     if (state[k].values.index() != values.index()) refuse(info.name, "of another type");
     if (state[k].info.columns != info.columns || size(state[k].values) % info.columns != 0) refuse(info.name, "of other columns");
     const bool fixed = info.entity == Entity::grain || info.name == "pile/motion" || info.name == "totals" ||
-                       info.name == "gathering" || info.name == "clock/step" || info.name == "blocks/bodies_count" || info.name == "list/closing";
+                       info.name == "totals/push_work" || info.name == "gathering" || info.name == "clock/step" ||
+                       info.name == "blocks/bodies_count" || info.name == "list/closing";
     const bool never_listed = info.name == "list/position" && (size(values) == 0 || size(state[k].values) == 0);
     if (fixed && !never_listed && size(state[k].values) != size(values)) refuse(info.name, "of another length");
   }
@@ -335,6 +353,12 @@ void restore(Simulation& sim, const std::vector<Array>& all) {
   for (std::size_t k = 0; k < sim.totals.feature.size(); ++k) sim.totals.feature[k] = {t[8 + 2 * k], t[9 + 2 * k]};
   const auto& g = source.get<double>("gathering");
   sim.gathering = {g[0], g[1], g[2], g[3], g[4], static_cast<std::int64_t>(g[5])};
+  sim.grains.push.clear();
+  sim.totals.push_work = 0;
+  if (!is_pushed(state)) return;
+  const auto& push = source.get<double>("grains/push");
+  for (std::size_t i = 0; i < sim.grains.count(); ++i) sim.grains.push.push_back({push[2 * i], push[2 * i + 1]});
+  sim.totals.push_work = source.get<double>("totals/push_work")[0];
 }
 
 std::uint64_t state_hash(const Simulation& sim) {

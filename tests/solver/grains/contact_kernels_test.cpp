@@ -24,6 +24,7 @@ struct Table {
   base::AlignedVector<Disc> disc;
   base::AlignedVector<BodyGroup<Real>> group;
   base::AlignedVector<Before<Real>> before;
+  base::AlignedVector<Push<Real>> push;
   base::AlignedVector<Iterate<Real>> iterate;
   SweepSums sweep;
   SolveSums solve;
@@ -44,6 +45,7 @@ Table<Real> random_table(std::uint64_t seed) {
   Table<Real> t;
   t.group.resize((kBodies + 3) / 4);
   t.before.resize(t.group.size() * 4);
+  t.push.resize(t.group.size() * 4);
   t.disc.resize(t.group.size() * 4);
   for (int body = 0; body < kBodies; ++body) {
     Motion<Real>& m = t.group[body / 4].motion[body % 4];
@@ -99,6 +101,7 @@ Table<Real> random_table(std::uint64_t seed) {
       t.iterate[b].old_pt[lane] = real(-0.5, 0.5);
     }
   }
+  for (int body = 0; body < kClose + kApart; ++body) t.push[body] = {real(-20, 20), real(-20, 20)};
   return t;
 }
 
@@ -188,10 +191,12 @@ TYPED_TEST(ContactKernel, BeginHasTheBitsOfItsScalarTwin) {
   using Real = TypeParam;
   expect_the_bits_of<Real>(
       [](Table<Real>& t) {
-        scalar::start(true, t.group.data(), t.before.data(), 1, 30, Real(5e-5), Real(9.81), &t.body);
+        scalar::start<Real>(true, t.group.data(), t.before.data(), nullptr, 1, 12, Real(5e-5), Real(9.81), &t.body);
+        scalar::start(true, t.group.data(), t.before.data(), t.push.data(), 12, 30, Real(5e-5), Real(9.81), &t.body);
       },
       [](const ContactKernels<Real>& k, Table<Real>& t) {
-        k.begin(t.group.data(), t.before.data(), 1, 30, Real(5e-5), Real(9.81), &t.body);
+        k.begin(t.group.data(), t.before.data(), nullptr, 1, 12, Real(5e-5), Real(9.81), &t.body);
+        k.begin(t.group.data(), t.before.data(), t.push.data(), 12, 30, Real(5e-5), Real(9.81), &t.body);
       });
 }
 
@@ -199,12 +204,12 @@ TYPED_TEST(ContactKernel, AdvanceHasTheBitsOfItsScalarTwin) {
   using Real = TypeParam;
   expect_the_bits_of<Real>(
       [](Table<Real>& t) {
-        scalar::start(false, t.group.data(), t.before.data(), 1, 30, Real(5e-5), Real(9.81), &t.body);
-        scalar::start(false, t.group.data(), t.before.data(), 0, 31, Real(5e-5), Real(9.81), &t.body);
+        scalar::start<Real>(false, t.group.data(), t.before.data(), nullptr, 1, 30, Real(5e-5), Real(9.81), &t.body);
+        scalar::start(false, t.group.data(), t.before.data(), t.push.data(), 0, 31, Real(5e-5), Real(9.81), &t.body);
       },
       [](const ContactKernels<Real>& k, Table<Real>& t) {
-        k.advance(t.group.data(), t.before.data(), 1, 30, Real(5e-5), Real(9.81), &t.body);
-        k.advance(t.group.data(), t.before.data(), 0, 31, Real(5e-5), Real(9.81), &t.body);
+        k.advance(t.group.data(), t.before.data(), nullptr, 1, 30, Real(5e-5), Real(9.81), &t.body);
+        k.advance(t.group.data(), t.before.data(), t.push.data(), 0, 31, Real(5e-5), Real(9.81), &t.body);
       });
 }
 

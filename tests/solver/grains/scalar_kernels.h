@@ -194,8 +194,8 @@ void extrapolate(BodyGroup<Real>* bodies, std::int32_t first, std::int32_t last,
 
 /// Both starts of a sub-step. Four bodies of a group have sums of their own, as have vx, vy and u.
 template <class Real>
-void start(bool first_substep, BodyGroup<Real>* bodies, Before<Real>* before, std::int32_t first, std::int32_t last,
-           Real h, Real gravity, BodySums* chunk) {
+void start(bool first_substep, BodyGroup<Real>* bodies, Before<Real>* before, const Push<Real>* push,
+           std::int32_t first, std::int32_t last, Real h, Real gravity, BodySums* chunk) {
   Real work[kLanes] = {}, lift[kLanes] = {};
   for (std::int32_t group = first; group < last; ++group)
     for (int body = 0; body < 4; ++body) {
@@ -214,8 +214,9 @@ void start(bool first_substep, BodyGroup<Real>* bodies, Before<Real>* before, st
         work[4 * body + number] = work[4 * body + number] + half_mass * contact * (from + from + contact);
         lift[4 * body + number] = lift[4 * body + number] + (half_mass + half_mass) * contact;
       };
-      one(m.vx, old.vx, Real(0), Real(1), 0);
-      one(m.vy, old.vy, -gravity * h, Real(1), 1);
+      const Push<Real> a = push ? push[4 * group + body] : Push<Real>{};
+      one(m.vx, old.vx, h * a.x, Real(1), 0);
+      one(m.vy, old.vy, -gravity * h + h * a.y, Real(1), 1);
       one(m.u, old.u, Real(0), Real(0.5), 2);
     }
   double sum_work = 0, sum_lift = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 #include <string>
@@ -143,6 +144,41 @@ TEST(State, TheHashSeesEveryArray) {
   }
 }
 
+/// As driven(), with a push on its grains in the last steps.
+Simulation pushed(int steps, int last, grains::Precision precision = grains::Precision::single_) {
+  Simulation sim = driven(steps, precision);
+  for (std::size_t i = 0; i < sim.grains.count(); ++i)
+    sim.grains.push.push_back({std::sin(static_cast<double>(i)), 3 + std::cos(static_cast<double>(i))});
+  advance(sim, last);
+  return sim;
+}
+
+TEST(State, APushOnTheGrainsAndItsWorkAreStateWhereThereIsOne) {
+  for (const auto precision : {grains::Precision::single_, grains::Precision::double_}) {
+    Simulation sim = pushed(150, 50, precision);
+    EXPECT_NE(sim.totals.push_work, 0);
+    // Into one without a push, and into one with another.
+    for (Simulation& other : std::vector{driven(0, precision), pushed(0, 20, precision)}) {
+      restore(other, snapshot(sim));
+      EXPECT_EQ(state_hash(sim), state_hash(other));
+      Simulation twin = sim;
+      advance(twin, 50);
+      advance(other, 50);
+      EXPECT_EQ(compare(snapshot(twin), snapshot(other)), "");
+      EXPECT_EQ(twin.totals.push_work, other.totals.push_work);
+    }
+  }
+}
+
+TEST(State, AStateOfDryGrainsNamesNoPushAndTakesItAway) {
+  const std::vector<Array> dry = snapshot(driven(50));
+  for (const Array& array : dry) EXPECT_EQ(array.info.name.find("push"), std::string::npos);
+  Simulation sim = pushed(20, 20);
+  restore(sim, dry);
+  EXPECT_EQ(compare(dry, snapshot(sim)), "");
+  EXPECT_EQ(sim.totals.push_work, 0);
+}
+
 /// The sentence with which a simulation refuses a state; it must then be what it was.
 std::string refusal(Simulation& sim, const std::vector<Array>& state) {
   const std::vector<Array> before = snapshot(sim);
@@ -167,6 +203,9 @@ TEST(State, AMissingUnknownOrMisplacedArrayIsRefusedByName) {
     EXPECT_THAT(refusal(sim, unknown), HasSubstr("grains/colour"));
   }
   std::vector<Array> more = state;
+  std::vector<Array> half = snapshot(pushed(20, 20));
+  half.pop_back();
+  EXPECT_THAT(refusal(sim, half), HasSubstr("totals/push_work"));
   more.push_back({{"fluid/velocity", "m/s", "", 2, Entity::run}, std::vector<double>(4)});
   EXPECT_THAT(refusal(sim, more), HasSubstr("fluid/velocity"));
   EXPECT_NE(refusal(sim, {}), "");
