@@ -13,10 +13,10 @@ double equivalent_porosity(double porosity) {
   return 1 - 2 / std::sqrt(std::numbers::pi * std::numbers::sqrt3) * solid * std::sqrt(solid);
 }
 
-double drag_coefficient(const DragLaw& law, const fluid::Properties& fluid, double diameter, double porosity,
+double drag_coefficient(const DragSpec& law, const fluid::Properties& fluid, double diameter, double porosity,
                         double superficial_slip) {
-  const double in_law = law.porosity == DragLaw::Porosity::plane ? porosity : equivalent_porosity(porosity);
-  return law.closure == DragLaw::Closure::dallavalle
+  const double in_law = law.porosity == DragPorosity::plane ? porosity : equivalent_porosity(porosity);
+  return law.closure == DragClosure::dallavalle
              ? dallavalle_drag(fluid, diameter, porosity, in_law, superficial_slip)
              : di_felice_drag(fluid, diameter, porosity, in_law, superficial_slip);
 }

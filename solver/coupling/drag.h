@@ -7,28 +7,17 @@
 // and water to water. With it, pressure drop and fluidisation are those of a bed of porosity phi_3.
 #pragma once
 
-#include <cstdint>
-
+#include "solver/coupling/coupling_spec.h"
 #include "solver/fluid/element.h"
 
 namespace seapile::coupling {
-
-struct DragLaw {
-  enum class Closure : std::uint8_t { dallavalle, di_felice };
-  enum class Porosity : std::uint8_t {
-    equivalent,  ///< phi_3
-    plane,       ///< phi, as the literature's codes have it
-  };
-  Closure closure = Closure::dallavalle;
-  Porosity porosity = Porosity::equivalent;
-};
 
 /// phi_3 [-].
 double equivalent_porosity(double porosity);
 
 /// gamma in F = gamma (v_f - v_i), the drag on a disc per metre of depth [kg/m/s]. `porosity`: phi of the plane at the
 /// grain, > 0; `superficial_slip`: phi |v_f - v_i| [m/s].
-double drag_coefficient(const DragLaw& law, const fluid::Properties& fluid, double diameter, double porosity,
+double drag_coefficient(const DragSpec& law, const fluid::Properties& fluid, double diameter, double porosity,
                         double superficial_slip);
 
 }  // namespace seapile::coupling

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace seapile::coupling {
 namespace {
@@ -44,21 +45,6 @@ double immersed_volume(const Deposit& deposit, std::size_t grain) {
   return volume;
 }
 
-Porosity porosity_of(const Deposit& deposit, std::span<const double> vertex_volume, double least) {
-  const std::vector<double> solid = solid_volume(deposit, vertex_volume.size());
-  Porosity porosity{std::vector<double>(solid.size(), 1), std::vector<double>(solid.size(), 1)};
-  for (std::size_t v = 0; v < solid.size(); ++v) {
-    const double phi = 1 - solid[v] / vertex_volume[v], most = (1 - least) * vertex_volume[v];
-    porosity.lowest = std::min(porosity.lowest, phi);
-    porosity.value[v] = phi;
-    if (!(solid[v] > most)) continue;
-    porosity.value[v] = least;
-    porosity.kept[v] = most / solid[v];
-    porosity.clipped_volume += solid[v] - most;
-  }
-  return porosity;
-}
-
 void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order) {
   struct Level {
     std::vector<double> volume, solid;
@@ -83,7 +69,7 @@ void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOr
   }
 }
 
-std::vector<double> drag_coefficients(const DragLaw& law, const fluid::Flow& flow, const Deposit& deposit,
+std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Flow& flow, const Deposit& deposit,
                                       std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity) {
   std::vector<double> gamma(velocity.size(), 0);
   for (std::size_t i = 0; i < velocity.size(); ++i) {

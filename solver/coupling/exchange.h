@@ -32,6 +32,7 @@
 #include "solver/base/vec2.h"
 #include "solver/coupling/deposit.h"
 #include "solver/coupling/drag.h"
+#include "solver/coupling/porosity.h"
 #include "solver/fluid/advance.h"
 #include "solver/fluid/flow.h"
 
@@ -44,20 +45,11 @@ struct Suspended {
   std::vector<base::Vec2> velocity; ///< v* [m/s]
 };
 
-/// Porosity of vertices that share out the grains as in `deposit`.
-struct Porosity {
-  std::vector<double> value;   ///< phi, at least `least`, (vertices)
-  std::vector<double> kept;    ///< share of S_j that phi stands for; 1 where nothing is cut off, (vertices)
-  double lowest = 1;           ///< before it is cut off [-]
-  double clipped_volume = 0;   ///< sum of the S_j that is cut off [m2]
-};
-Porosity porosity_of(const Deposit& deposit, std::span<const double> vertex_volume, double least);
-
 /// Sets flow.porosity_rate at the flow's porosity and places, and those of `past`.
 void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order);
 
 /// gamma of each grain [kg/m/s], for the flow's velocities and porosities as they are; of its share in the fluid.
-std::vector<double> drag_coefficients(const DragLaw& law, const fluid::Flow& flow, const Deposit& deposit,
+std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Flow& flow, const Deposit& deposit,
                                       std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity);
 
 /// Sets the flow's drag, carried, mobility and response. `kept`: of the porosity.

@@ -38,6 +38,7 @@ struct FlowRecord {
   double shoulder_pressure = kAbsent;  ///< u2: behind the tip, mean of both sides [Pa]
   double sleeve_pressure = kAbsent;    ///< u3: on the sleeve, a pile's width above the shoulder [Pa]
   double grain_force_x = kAbsent, grain_force_y = kAbsent;  ///< of the fluid on all grains, without buoyancy [N/m]
+  double grain_work = kAbsent;       ///< of these forces since the start [J/m]
   double lowest_porosity = kAbsent;  ///< of the vertices, before it is cut off [-]
   double clipped_volume = kAbsent;   ///< of the grains where the porosity is cut off [m2]
   double immersed = kAbsent;         ///< share of the grains' area that is in the fluid [-]
@@ -85,6 +86,7 @@ void columns(auto&& visit, base::SameAs<FlowRecord> auto& r) {
         r.sleeve_pressure);
   visit("grain_force_x", "N/m", "horizontal force of the fluid on all grains", r.grain_force_x);
   visit("grain_force_y", "N/m", "vertical force of the fluid on all grains, without buoyancy", r.grain_force_y);
+  visit("grain_work", "J/m", "work of the fluid on the grains since the start, without buoyancy", r.grain_work);
   visit("lowest_porosity", "-", "smallest porosity of a vertex, before it is cut off", r.lowest_porosity);
   visit("clipped_volume", "m2", "area of the grains that the cut-off porosity leaves out", r.clipped_volume);
   visit("immersed", "-", "share of the grains' area that is in the fluid", r.immersed);

@@ -7,6 +7,7 @@
 
 #include "solver/grains/fields_on_grid.h"
 #include "solver/pile/pile.h"
+#include "solver/simulation/water_metrics.h"
 
 namespace seapile::simulation {
 namespace {
@@ -168,7 +169,8 @@ Frame ForceWindow::frame(const Simulation& sim, double spacing, double height) c
   return frame;
 }
 
-std::vector<Metric> drive_metrics(std::span<const Record> records, const pile::PileSpec& pile) {
+std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<const FlowRecord> flow_records,
+                                  const pile::PileSpec& pile) {
   constexpr double kFrom = 0.2, kTo = 1.2, kBin = 0.05;  // headline and depth bin: docs/formulation.md 3
   std::vector<Metric> metrics;
   const auto add = [&](std::string name, double value, const char* unit, const char* meaning) {
@@ -223,12 +225,7 @@ std::vector<Metric> drive_metrics(std::span<const Record> records, const pile::P
     add("depth_reached", records.back().depth, "m", "depth at the end");
     add("pile_work", records.back().pile_work, "J/m", "work of the pile on the grains");
     add("dissipation", records.back().dissipation, "J/m", "energy taken out by the contacts, summed per contact");
-    const Record &first = records.front(), &last = records.back();
-    add("energy_error",
-        (last.kinetic_energy + last.potential_energy - first.kinetic_energy - first.potential_energy -
-         (last.pile_work - first.pile_work) + (last.dissipation - first.dissipation)) /
-            std::max(std::abs(last.pile_work), 1e-12),
-        "-", "energy that the balance lacks, share of the pile's work");
+    add("energy_error", energy_error(records, flow_records), "-", "energy that the balance lacks, share of the pile's work");
   }
   for (int k = 0; k * kBin < kTo - 1e-9; ++k) {
     const int centimetres = static_cast<int>(std::lround(100 * k * kBin));

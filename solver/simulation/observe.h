@@ -42,7 +42,9 @@ class ForceWindow {
   std::map<std::pair<std::int32_t, std::int32_t>, Sum> sum_;
 };
 
-/// Headline, fluctuation, depth bins and extremes of a drive's records (docs/formulation.md 3).
-std::vector<Metric> drive_metrics(std::span<const Record> records, const pile::PileSpec& pile);
+/// Headline, fluctuation, depth bins and extremes of a drive's records (docs/formulation.md 3). `flow_records`: of the
+/// fluid, as many; empty when the scene is dry.
+std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<const FlowRecord> flow_records,
+                                  const pile::PileSpec& pile);
 
 }  // namespace seapile::simulation

@@ -13,6 +13,7 @@
 #include "solver/simulation/observe.h"
 #include "solver/simulation/state.h"
 #include "solver/simulation/step.h"
+#include "solver/simulation/water_metrics.h"
 
 namespace seapile::simulation {
 namespace {
@@ -182,7 +183,9 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   result.time = sim.clock.time();
   result.depth = depth(sim);
   result.state_hash = state_hash(sim);
-  result.metrics = drive_metrics(records, *scene.pile);
+  result.metrics = drive_metrics(records, flow_records, *scene.pile);
+  if (sim.water)
+    for (Metric& metric : water_metrics(records, flow_records, *sim.water)) result.metrics.push_back(std::move(metric));
   result.metrics.push_back({"steps", static_cast<double>(sim.clock.step), "-", "steps done"});
   std::visit(
       [&](const auto& system) {

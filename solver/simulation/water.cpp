@@ -196,6 +196,7 @@ FlowRecord take_flow_record(Simulation& sim) {
     const double share = 1 / static_cast<double>(g.steps);
     record.grain_force_x = share * g.grain_force.x;
     record.grain_force_y = share * g.grain_force.y;
+    record.grain_work = sim.totals.push_work;
     record.lowest_porosity = g.lowest_porosity;
     record.clipped_volume = g.clipped_volume;
     record.immersed = g.immersed;

@@ -35,8 +35,8 @@ struct Water {
   int grain_steps = 1;  ///< of the grains in a step of the fluid
   double buoyancy = 0;  ///< rho/rho_p g, by which the weight of immersed grains is less [m/s2]
 
-  std::vector<base::Vec2> drag, pressure;  ///< forces of the last exchange [N/m], (grains)
-  std::vector<base::Vec2> velocity;        ///< of the grains when the last step of the fluid began [m/s], (grains)
+  std::vector<base::Vec2> drag = {}, pressure = {};  ///< forces of the last exchange [N/m], (grains)
+  std::vector<base::Vec2> velocity = {};             ///< of the grains when the last step of the fluid began [m/s], (grains)
   WaterGathering gathering = {};
 };
 

@@ -24,11 +24,11 @@ namespace seapile::coupling {
 namespace {
 
 constexpr double kGravity = 9.81, kGrain = 1500;
-constexpr std::array<DragLaw::Closure, 2> kClosures = {DragLaw::Closure::dallavalle, DragLaw::Closure::di_felice};
-constexpr std::array<DragLaw::Porosity, 2> kPorosities = {DragLaw::Porosity::equivalent, DragLaw::Porosity::plane};
+constexpr std::array<DragClosure, 2> kClosures = {DragClosure::dallavalle, DragClosure::di_felice};
+constexpr std::array<DragPorosity, 2> kPorosities = {DragPorosity::equivalent, DragPorosity::plane};
 
 /// D/phi of a disc [N/m].
-double whole_force(const DragLaw& law, const fluid::Properties& water, double d, double phi, double u) {
+double whole_force(const DragSpec& law, const fluid::Properties& water, double d, double phi, double u) {
   return drag_coefficient(law, water, d, phi, u) * (u / phi) / phi;
 }
 
@@ -43,7 +43,7 @@ double root_of(const std::function<double(double)>& f) {
 }
 
 /// The superficial slip that carries discs [m/s].
-double carrying(const DragLaw& law, const fluid::Properties& water, double d, double phi) {
+double carrying(const DragSpec& law, const fluid::Properties& water, double d, double phi) {
   const double weight = (kGrain - water.density) * kGravity * std::numbers::pi * d * d / 4;
   return root_of([&](double u) { return whole_force(law, water, d, phi, u) - weight; });
 }
@@ -62,14 +62,14 @@ TEST(Drag, HasTheClosedFormsOfItsSources) {
         // Literally: phi^-1.8 1/2 rho C_d A |v| v, and 1/2 rho C_d A phi^2 |v| v phi^-beta.
         const double dallavalle = std::pow(phi, -1.8) * 0.5 * 1000 * c_d * d * v,
                      di_felice = 0.5 * 1000 * c_d * d * phi * phi * v * std::pow(phi, -beta);
-        const auto gamma = [&](DragLaw::Closure closure, DragLaw::Porosity porosity) {
+        const auto gamma = [&](DragClosure closure, DragPorosity porosity) {
           return drag_coefficient({closure, porosity}, water, d, phi, u);
         };
-        EXPECT_NEAR(gamma(kClosures[0], DragLaw::Porosity::plane) / dallavalle, 1, 1e-13);
-        EXPECT_NEAR(gamma(kClosures[1], DragLaw::Porosity::plane) / di_felice, 1, 1e-13);
-        EXPECT_NEAR(gamma(kClosures[0], DragLaw::Porosity::equivalent) / dallavalle, std::pow(phi / phi_3, 4.8),
+        EXPECT_NEAR(gamma(kClosures[0], DragPorosity::plane) / dallavalle, 1, 1e-13);
+        EXPECT_NEAR(gamma(kClosures[1], DragPorosity::plane) / di_felice, 1, 1e-13);
+        EXPECT_NEAR(gamma(kClosures[0], DragPorosity::equivalent) / dallavalle, std::pow(phi / phi_3, 4.8),
                     1e-5 * std::pow(phi / phi_3, 4.8));
-        EXPECT_NEAR(gamma(kClosures[1], DragLaw::Porosity::equivalent) / di_felice, std::pow(phi / phi_3, beta + 1),
+        EXPECT_NEAR(gamma(kClosures[1], DragPorosity::equivalent) / di_felice, std::pow(phi / phi_3, beta + 1),
                     1e-5 * std::pow(phi / phi_3, beta + 1));
       }
 }
@@ -84,7 +84,7 @@ TEST(Drag, TheDensestDiscsAreTheDensestSpheres) {
 TEST(Drag, IsFiniteAtRestAndWithoutInertia) {
   for (const auto closure : kClosures)
     for (const auto porosity : kPorosities) {
-      const DragLaw law{closure, porosity};
+      const DragSpec law{closure, porosity};
       const double d = 0.03, stokes = 0.5 * 4.8 * 4.8 * 1e-3;  // phi = 1: 1/2 d 23.04 mu/d
       EXPECT_NEAR(drag_coefficient(law, water_of(1000), d, 1, 0) / stokes, 1, 1e-15);
       EXPECT_NEAR(drag_coefficient(law, {0, 1e-3}, d, 1, 0.5) / stokes, 1, 1e-15);
@@ -110,7 +110,7 @@ TEST(Drag, ASwarmFallsByRichardsonAndZaki) {
   for (const auto& [reynolds, at_08, at_06] : {Row{3e-4, 4.79, 4.79}, Row{0.25, 4.58, 4.63}, Row{66, 3.26, 3.40},
                                                Row{3600, 2.56, 2.60}, Row{2e4, 2.47, 2.49}}) {
     const fluid::Properties water = water_of(1000);
-    const DragLaw law{DragLaw::Closure::dallavalle, DragLaw::Porosity::plane};
+    const DragSpec law{DragClosure::dallavalle, DragPorosity::plane};
     const double d = root_of([&](double x) { return carrying(law, water, x, 1) * x / 1e-6 - reynolds; });
     const double alone = carrying(law, water, d, 1);
     const auto exponent = [&](double phi) { return std::log(carrying(law, water, d, phi) / alone) / std::log(phi); };
@@ -121,7 +121,7 @@ TEST(Drag, ASwarmFallsByRichardsonAndZaki) {
 
 TEST(Drag, DiFeliceSwarmsStayNearRichardsonAndZaki) {
   // His exponent beta + 1 = 4.7 in creeping and in fast flow: n = 4.7 and 2.35.
-  const DragLaw law{DragLaw::Closure::di_felice, DragLaw::Porosity::plane};
+  const DragSpec law{DragClosure::di_felice, DragPorosity::plane};
   const auto exponent = [&](double d) {
     return std::log(carrying(law, water_of(1000), d, 0.8) / carrying(law, water_of(1000), d, 1)) / std::log(0.8);
   };
@@ -134,7 +134,7 @@ TEST(Drag, DiFeliceSwarmsStayNearRichardsonAndZaki) {
 TEST(Drag, TheBedOfThePileIsFluidisedAtItsVelocity) {
   // Radii from 11.2 to 19.2 mm, uniformly, at a plane porosity of 0.18: discs of the mean area.
   const double d = 2 * std::sqrt(0.0152 * 0.0152 + 0.008 * 0.008 / 12);
-  const DragLaw plane{DragLaw::Closure::dallavalle, DragLaw::Porosity::plane}, equivalent{};
+  const DragSpec plane{DragClosure::dallavalle, DragPorosity::plane}, equivalent{};
   EXPECT_NEAR(carrying(plane, water_of(1000), d, 0.18), 8.6e-3, 0.05e-3);
   EXPECT_NEAR(carrying(plane, water_of(1300), d, 0.18), 4.2e-3, 0.05e-3);
   EXPECT_NEAR(carrying(equivalent, water_of(1000), d, 0.18), 58e-3, 0.5e-3);
@@ -146,15 +146,15 @@ TEST(Drag, WithTheEquivalentPorosityABedResistsAsOneOfThatPorosity) {
   const fluid::Properties water = water_of(1000);
   for (const auto closure : kClosures)
     for (const double phi : {0.18, 0.4, 0.8})
-      EXPECT_NEAR(whole_force({closure, DragLaw::Porosity::equivalent}, water, 0.03, phi, 0.02) /
-                      whole_force({closure, DragLaw::Porosity::plane}, water, 0.03, equivalent_porosity(phi), 0.02),
+      EXPECT_NEAR(whole_force({closure, DragPorosity::equivalent}, water, 0.03, phi, 0.02) /
+                      whole_force({closure, DragPorosity::plane}, water, 0.03, equivalent_porosity(phi), 0.02),
                   1, 1e-13);
 }
 
 TEST(Drag, APackedBedOfSpheresIsNearErgun) {
   // dP/L = n F/phi with n = (1 - phi)/(pi d^3/6) spheres, whose area is pi d^2/4 in place of d.
   const fluid::Properties water = water_of(1000);
-  const DragLaw law{DragLaw::Closure::dallavalle, DragLaw::Porosity::plane};
+  const DragSpec law{DragClosure::dallavalle, DragPorosity::plane};
   const double d = 1e-3, phi = 0.4, mu = water.viscosity, rho = water.density, pi = std::numbers::pi;
   double u = 1e-5;
   for (const double ratio : {1.03, 1.08, 1.25, 1.68, 1.81, 1.30}) {
