@@ -34,24 +34,17 @@ std::vector<double> path_in_step(const Pile& pile, const Clock& clock, int subst
   return path;
 }
 
-}  // namespace
-
-StepReport step(Simulation& sim, bool keep_impulses) {
-  StepReport report;
-  if (sim.water && sim.clock.step % sim.water->grain_steps == 0) {
-    report.water = step_water(sim);
-    if (!report.water.empty()) return report;
-  }
-
+grains::ContactReport advance_grains(Simulation& sim, bool keep_impulses) {
   // 2. Pile position -> d.
   std::vector<double> path;
   if (sim.pile) path = path_in_step(*sim.pile, sim.clock, grains::substeps(sim.law));
 
   // 1. Time integration of the grains against walls and pile -> x_p, v_p, impulses.
   grains::RigidBody* body = sim.pile ? &sim.pile->body : nullptr;
-  report.contact = std::visit(
+  const grains::ContactReport report = std::visit(
       [&](auto& system) {
-        return integrate(system, sim.grains, sim.box, sim.law, body, path, keep_impulses, sim.totals, sim.team, sim.profile);
+        return integrate(system, sim.grains, sim.box, sim.law, body, path, keep_impulses, sim.totals, sim.team,
+                         sim.profile);
       },
       sim.contacts);
 
@@ -61,6 +54,18 @@ StepReport step(Simulation& sim, bool keep_impulses) {
     sim.pile->body.position.y = sim.pile->start - pile::path(sim.pile->spec.driving, sim.clock.time());
     sim.pile->travel += std::abs(path.back());
   }
+  return report;
+}
+
+}  // namespace
+
+StepReport step(Simulation& sim, bool keep_impulses) {
+  StepReport report;
+  if (sim.water && sim.clock.step % sim.water->grain_steps == 0) {
+    report.water = step_water(sim, [](Simulation& trial) { advance_grains(trial, false); });
+    if (!report.water.empty()) return report;
+  }
+  report.contact = advance_grains(sim, keep_impulses);
   return report;
 }
 

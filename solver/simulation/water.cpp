@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "solver/basin/remesh.h"
 #include "solver/basin/step.h"
@@ -112,80 +113,191 @@ Water water_around(const Simulation& sim, const basin::BasinSpec& spec, const co
   return water;
 }
 
-std::string step_water(Simulation& sim) {
-  Water& water = *sim.water;
-  basin::Basin& basin = water.basin;
-  const double dt = basin.spec.time.step;
-  base::Crew* crew = sim.team.crew.get();
-  const std::size_t count = sim.grains.count(), in_deposit = sim.profile.index("porosity"),
-                    in_exchange = sim.profile.index("exchange");
+namespace {
 
-  // The grains where they are, on the mesh as it is.
-  const std::vector<base::Vec2> velocity = velocities_of(sim);
-  OnMesh now;
-  {
-    const base::Stopwatch watch(sim.profile, in_deposit);
-    now = put_on(basin.flow.mesh, water.location, discs_of(sim), water.coupling.porosity, crew);
+/// The grains as the fluid's step expects them at its end, if its exchange is none.
+struct Outlook {
+  std::vector<grains::Disc> disc;
+  coupling::Suspended suspended;
+};
+
+/// A step of the fluid, once or twice.
+class WaterStep {
+ public:
+  explicit WaterStep(Simulation& sim)
+      : sim_(sim),
+        water_(*sim.water),
+        dt_(water_.basin.spec.time.step),
+        in_deposit_(sim.profile.index("porosity")),
+        in_exchange_(sim.profile.index("exchange")),
+        velocity_(velocities_of(sim)) {
+    now_ = found(water_.basin.flow.mesh, discs_of(sim_));
+    water_.basin.flow.porosity = now_.porosity.phi;
+    water_.basin.past.level[0].porosity = now_.porosity.phi;
+    const base::Stopwatch watch(sim_.profile, in_exchange_);
+    drag_ = coupling::drag_coefficients(water_.coupling.drag, water_.basin.flow, now_.deposit, discs_of(sim_), velocity_);
+    for (std::size_t i = 0; i < drag_.size(); ++i)
+      drag_[i] *= sim_.grains.mass[i] / (sim_.grains.mass[i] + dt_ * drag_[i]);
   }
-  basin.flow.porosity = now.porosity.phi;
-  basin.past.level[0].porosity = now.porosity.phi;
 
-  // Where they will be if this step's exchange is none, and what they then answer to drag.
-  std::vector<grains::Disc> ahead(discs_of(sim).begin(), discs_of(sim).end());
-  coupling::Suspended suspended{sim.grains.mass, {}, std::vector<base::Vec2>(count)};
-  {
-    const base::Stopwatch watch(sim.profile, in_exchange);
-    suspended.drag = coupling::drag_coefficients(water.coupling.drag, basin.flow, now.deposit, discs_of(sim), velocity);
+  /// From where the grains are: contacts and weight do what they did in the last step.
+  Outlook from_last_step() const {
+    Outlook ahead = outlook();
+    for (std::size_t i = 0; i < drag_.size(); ++i) {
+      const double inverse = 1 / sim_.grains.mass[i];
+      ahead.suspended.velocity[i] = 2 * velocity_[i] - water_.velocity[i] - (dt_ * inverse) * water_.drag[i];
+      move(ahead.disc[i], dt_ * (velocity_[i] - (dt_ * inverse) * (water_.drag[i] + water_.pressure[i])));
+    }
+    return ahead;
+  }
+
+  /// From where the grains came with the forces of a first solve.
+  Outlook from_trial(const coupling::Forces& first) const {
+    Outlook ahead = outlook();
+    const std::vector<base::Vec2> velocity = velocities_of(sim_);
+    for (std::size_t i = 0; i < drag_.size(); ++i) {
+      const double inverse = 1 / sim_.grains.mass[i];
+      ahead.suspended.velocity[i] = velocity[i] - (dt_ * inverse) * first.drag[i];
+      move(ahead.disc[i], (-dt_ * dt_ * inverse) * (first.drag[i] + first.pressure[i]));
+    }
+    return ahead;
+  }
+
+  /// Advances the fluid. Empty when it is done; otherwise nothing has changed.
+  std::string solve(const Outlook& ahead) {
+    basin::Suspension suspension;
+    suspension.moved = [&](basin::Basin& moved) {
+      then_ = found(moved.flow.mesh, ahead.disc);
+      const base::Stopwatch watch(sim_.profile, in_exchange_);
+      moved.flow.porosity = then_.porosity.phi;
+      coupling::set_porosity_rate(moved.flow, moved.past, moved.solver.order);
+      coupling::put_grains(moved.flow, then_.deposit, then_.volume, then_.porosity.kept, ahead.suspended, dt_);
+    };
+    suspension.solved = [&](const basin::Basin& solved) {
+      const base::Stopwatch watch(sim_.profile, in_exchange_);
+      forces_ = coupling::forces_on(then_.deposit, solved.flow, then_.volume, then_.porosity.kept, ahead.suspended);
+    };
+    suspension.remeshed = [&](fluid::Flow& flow) {
+      water_.location = coupling::Location(flow.mesh);
+      const OnMesh from = found(flow.mesh, discs_of(sim_)), to = found(flow.mesh, ahead.disc);
+      flow.porosity = to.porosity.phi;
+      for (std::size_t v = 0; v < flow.porosity.size(); ++v)
+        flow.porosity_rate[v] = (to.porosity.phi[v] - from.porosity.phi[v]) / dt_;
+    };
+    return basin::step(water_.basin, sim_.profile, suspension);
+  }
+
+  const coupling::Forces& forces() const { return forces_; }
+
+  /// Gives the grains the forces of the solve.
+  void push() {
+    const std::size_t count = sim_.grains.count();
+    sim_.grains.push.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const double mass = sim.grains.mass[i];
-      suspended.drag[i] *= mass / (mass + dt * suspended.drag[i]);
-      suspended.velocity[i] = 2 * velocity[i] - water.velocity[i] - (dt / mass) * water.drag[i];
-      const base::Vec2 way = dt * (velocity[i] - (dt / mass) * (water.drag[i] + water.pressure[i]));
-      ahead[i].x += way.x;
-      ahead[i].y += way.y;
+      const double radius = sim_.grains.disc[i].radius, area = std::numbers::pi * radius * radius,
+                   outside = std::max(0.0, 1 - coupling::immersed_volume(then_.deposit, i) / area);
+      sim_.grains.push[i] = (1 / sim_.grains.mass[i]) * (forces_.drag[i] + forces_.pressure[i]) -
+                            base::Vec2{0, water_.buoyancy * outside};
     }
   }
 
-  OnMesh then;
-  coupling::Forces forces;
-  basin::Suspension suspension;
-  suspension.moved = [&](basin::Basin& moved) {
-    {
-      const base::Stopwatch watch(sim.profile, in_deposit);
-      then = put_on(moved.flow.mesh, water.location, ahead, water.coupling.porosity, crew);
-    }
-    const base::Stopwatch watch(sim.profile, in_exchange);
-    moved.flow.porosity = then.porosity.phi;
-    coupling::set_porosity_rate(moved.flow, moved.past, moved.solver.order);
-    coupling::put_grains(moved.flow, then.deposit, then.volume, then.porosity.kept, suspended, dt);
-  };
-  suspension.solved = [&](const basin::Basin& solved) {
-    const base::Stopwatch watch(sim.profile, in_exchange);
-    forces = coupling::forces_on(then.deposit, solved.flow, then.volume, then.porosity.kept, suspended);
-  };
-  suspension.remeshed = [&](fluid::Flow& flow) {
-    coupling::Location location(flow.mesh);
-    const OnMesh from = put_on(flow.mesh, location, discs_of(sim), water.coupling.porosity, crew),
-                 to = put_on(flow.mesh, location, ahead, water.coupling.porosity, crew);
-    flow.porosity = to.porosity.phi;
-    for (std::size_t v = 0; v < flow.porosity.size(); ++v)
-      flow.porosity_rate[v] = (to.porosity.phi[v] - from.porosity.phi[v]) / dt;
-    water.location = std::move(location);
-  };
-  if (std::string why = basin::step(basin, sim.profile, suspension); !why.empty()) return why;
-
-  water.drag = std::move(forces.drag);
-  water.pressure = std::move(forces.pressure);
-  water.velocity = velocity;
-  sim.grains.push.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double radius = sim.grains.disc[i].radius, area = std::numbers::pi * radius * radius,
-                 outside = std::max(0.0, 1 - coupling::immersed_volume(then.deposit, i) / area);
-    sim.grains.push[i] =
-        (1 / sim.grains.mass[i]) * (water.drag[i] + water.pressure[i]) - base::Vec2{0, water.buoyancy * outside};
+  void finish() {
+    push();
+    water_.drag = std::move(forces_.drag);
+    water_.pressure = std::move(forces_.pressure);
+    water_.velocity = std::move(velocity_);
+    gather(water_, then_, discs_of(sim_));
   }
-  gather(water, then, discs_of(sim));
-  return {};
+
+ private:
+  OnMesh found(const mesh::TriangleMesh& mesh, std::span<const grains::Disc> disc) {
+    const base::Stopwatch watch(sim_.profile, in_deposit_);
+    return put_on(mesh, water_.location, disc, water_.coupling.porosity, sim_.team.crew.get());
+  }
+  Outlook outlook() const {
+    const auto disc = discs_of(sim_);
+    return {{disc.begin(), disc.end()}, {sim_.grains.mass, drag_, std::vector<base::Vec2>(disc.size())}};
+  }
+  static void move(grains::Disc& disc, base::Vec2 way) {
+    disc.x += way.x;
+    disc.y += way.y;
+  }
+
+  Simulation& sim_;
+  Water& water_;
+  double dt_;
+  std::size_t in_deposit_, in_exchange_;
+  std::vector<base::Vec2> velocity_;  ///< of the grains at the start
+  std::vector<double> drag_;          ///< gamma_e
+  OnMesh now_, then_;
+  coupling::Forces forces_;
+};
+
+/// What a solve that keeps its mesh changes of a basin.
+struct BasinBefore {
+  explicit BasinBefore(const basin::Basin& b)
+      : flow(b.flow), top(b.top), past(b.past), past_tip(b.past_tip), past_flux(b.past_flux), step(b.step) {}
+  void put_back(basin::Basin& b) const {
+    b.flow = flow;
+    b.top = top;
+    b.past = past;
+    b.past_tip = past_tip;
+    b.past_flux = past_flux;
+    b.step = step;
+  }
+  fluid::Flow flow;
+  fluid::FreeSurface top;
+  fluid::Past past;
+  std::vector<double> past_tip;
+  std::vector<std::vector<double>> past_flux;
+  std::int64_t step;
+};
+
+/// What the grains are before a trial of theirs.
+struct GrainsBefore {
+  explicit GrainsBefore(const Simulation& s)
+      : clock(s.clock), grains(s.grains), contacts(s.contacts), pile(s.pile), totals(s.totals) {}
+  void put_back(Simulation& s) const {
+    s.clock = clock;
+    s.grains = grains;
+    s.contacts = contacts;
+    s.pile = pile;
+    s.totals = totals;
+  }
+  Clock clock;
+  grains::Grains grains;
+  decltype(Simulation::contacts) contacts;
+  std::optional<Pile> pile;
+  grains::ContactTotals totals;
+};
+
+/// Solves, lets the grains go on trial, and solves again with what they did.
+std::string solve_twice(Simulation& sim, WaterStep& step, const std::function<void(Simulation&)>& advance_grains) {
+  basin::Basin& basin = sim.water->basin;
+  const BasinBefore basin_before(basin);
+  const auto remesh = std::exchange(basin.spec.mesh.remesh, std::nullopt);
+  std::string why = step.solve(step.from_last_step());
+  basin.spec.mesh.remesh = remesh;
+  if (!why.empty()) return why;
+
+  const GrainsBefore grains_before(sim);
+  step.push();
+  for (int k = 0; k < sim.water->grain_steps; ++k) advance_grains(sim);
+  const Outlook ahead = step.from_trial(step.forces());
+  grains_before.put_back(sim);
+  basin_before.put_back(basin);
+  return step.solve(ahead);
+}
+
+}  // namespace
+
+std::string step_water(Simulation& sim, const std::function<void(Simulation&)>& advance_grains) {
+  WaterStep step(sim);
+  const std::string why = sim.water->coupling.scheme == coupling::Scheme::once
+                              ? step.solve(step.from_last_step())
+                              : solve_twice(sim, step, advance_grains);
+  if (why.empty()) step.finish();
+  return why;
 }
 
 FlowRecord take_flow_record(Simulation& sim) {

@@ -1,6 +1,7 @@
 // The water of a saturated scene, from its spec, and its step with the grains.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,8 +50,9 @@ Water water_around(const Simulation& simulation, const basin::BasinSpec& basin, 
                    double grain_density);
 
 /// One step of the fluid from the present time, and what it does to the grains during that step (grains.push). Empty
-/// when it is done; otherwise one sentence, and nothing has changed.
-std::string step_water(Simulation& simulation);
+/// when it is done; otherwise one sentence, and grains and flow are as they were. `advance_grains`: one step of theirs,
+/// for schemes that try it.
+std::string step_water(Simulation& simulation, const std::function<void(Simulation&)>& advance_grains);
 
 /// Closes the record of the water since the last one and begins the next.
 FlowRecord take_flow_record(Simulation& simulation);
