@@ -74,7 +74,10 @@ Subject subject_of(SQLite::Database& sqlite, const std::string& name) {
   if (name.starts_with(kOfBed) && exists(sqlite, "SELECT 1 " + of_beds + " AND name = ? LIMIT 1", metric_name(name))) {
     return Subject::bed_metric;
   }
-  if (exists(sqlite, "SELECT 1 FROM param WHERE path = ? LIMIT 1", name)) return Subject::parameter;
+  // A part by itself has no row, but its members have.
+  if (exists(sqlite, "SELECT 1 FROM param WHERE path = ?1 OR substr(path, 1, length(?1) + 1) = ?1 || '.' LIMIT 1",
+             name))
+    return Subject::parameter;
   if (exists(sqlite, "SELECT 1 FROM metric WHERE name = ? LIMIT 1", name)) return Subject::metric;
   Texts known = texts(sqlite,
                       "SELECT DISTINCT path FROM param UNION SELECT DISTINCT name FROM metric "
@@ -109,9 +112,12 @@ Clause clause_of(SQLite::Database& sqlite, const Condition& condition) {
                                : "r.case_id IN (SELECT case_id FROM param WHERE path = ? AND ";
   const std::string name = subject == Subject::bed_metric ? metric_name(condition.path) : condition.path;
   if (number != nullptr) return {rows + (is_metric ? "value " : "num ") + op + " ?)", {name, *number}};
-  const std::string present = is_metric ? "value IS NOT NULL)" : "(num IS NOT NULL OR txt IS NOT NULL))";
   if (text == nullptr) {
-    return {(condition.op == Condition::Op::equal ? "NOT " : "") + rows + present, {name}};
+    const std::string negated = condition.op == Condition::Op::equal ? "NOT " : "";
+    if (is_metric) return {negated + rows + "value IS NOT NULL)", {name}};
+    return {negated + "(" + rows + "(num IS NOT NULL OR txt IS NOT NULL)) OR r.case_id IN (SELECT case_id FROM param " +
+                "WHERE substr(path, 1, length(?) + 1) = ? || '.'))",
+            {name, name, name}};
   }
   const bool has_text =
       !is_metric && exists(sqlite, "SELECT 1 FROM param WHERE path = ? AND txt IS NOT NULL LIMIT 1", condition.path);

@@ -113,6 +113,9 @@ TEST_F(FilledCatalogue, FindsByParameterMetricAndOutcome) {
   EXPECT_EQ(count("", {"fluid = null"}), 5U);
   EXPECT_EQ(count("", {"pile.tip = null"}), 0U);
   EXPECT_EQ(count("", {"pile.tip != null"}), 5U);
+  EXPECT_EQ(count("", {"pile = null"}), 0U) << "a part is there when it has members";
+  EXPECT_EQ(count("", {"pile != null", "fluid = null"}), 5U);
+  EXPECT_EQ(count("", {"fluid != null"}), 0U);
   EXPECT_EQ(count("", {"tip_resistance_bin_0.25 = null"}), 5U);
   EXPECT_EQ(count("", {"outcome = completed"}), 5U);
   EXPECT_EQ(count("", {"outcome != completed"}), 0U);

@@ -139,8 +139,7 @@ TEST(ResultSchema, ListsWhatIsInEveryFileOfARun) {
   const sample::Written run = sample::write(scratch.fresh("complete"));
   const Path flow = sample::write_flow(scratch.fresh("flow"));
   // A record of the water that lacks nothing, and one of grains beside it.
-  simulation::FlowRecord full = sample::flow_record(0);
-  full.pile_depth = full.pile_speed = full.pile_force_x = full.pile_force_y = 1;
+  const simulation::FlowRecord full = sample::saturated_record(0);
   const Path both = scratch.path() / "both" / "0001";
   {
     RunWriter of_both(both, sample::drive_header());

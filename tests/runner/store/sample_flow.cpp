@@ -70,16 +70,25 @@ RunHeader basin_header() {
   return header;
 }
 
-FlowRecord flow_record(std::size_t index) {
+FlowRecord saturated_record(std::size_t index) {
   FlowRecord record;
   std::uint64_t column = 0;
   columns([&](const char*, const char*, const char*,
               double& value) { value = uniform(80'000 + column++, index) * 2e-3 - 1e-3; },
           record);
   record.time = 0.05 * static_cast<double>(index);
-  for (double* of_pile : {&record.pile_depth, &record.pile_speed, &record.pile_force_x, &record.pile_force_y}) {
-    *of_pile = FlowRecord::kAbsent;
-  }
+  return record;
+}
+
+FlowRecord flow_record(std::size_t index) {
+  FlowRecord record = saturated_record(index);
+  bool of_bed = false;  // From the first column of a saturated bed on.
+  columns(
+      [&](const std::string& name, const char*, const char*, double& value) {
+        of_bed = of_bed || name == "tip_force_x";
+        if (of_bed || name.starts_with("pile_")) value = FlowRecord::kAbsent;
+      },
+      record);
   if (index % 4 == 1) record.middle = FlowRecord::kAbsent;
   return record;
 }

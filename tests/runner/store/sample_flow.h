@@ -20,6 +20,8 @@ std::filesystem::path write_flow(const std::filesystem::path& root);
 /// A basin without a pile: columns that are absent from every record, and from some the height in the middle.
 RunHeader basin_header();
 simulation::FlowRecord flow_record(std::size_t index);
+/// Of a saturated bed: no column is absent.
+simulation::FlowRecord saturated_record(std::size_t index);
 std::vector<simulation::FlowRecord> flow_records(std::size_t first, std::size_t count);
 
 /// The first difference bit for bit; empty: none.
