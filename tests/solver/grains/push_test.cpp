@@ -139,8 +139,12 @@ TYPED_TEST(Push, ItsWorkIsThatAlongTheWay) {
     ContactScene<TypeParam> scene({{0, 0.12, 0.02, 0}, {0.004, 0.17, 0.02, 0}});
     scene.law.restitution = e;
     scene.law.friction_wall = 0.3;
-    scene.grains.push = {{1, -3}, {-2, 4}};
-    scene.run(0.4);
+    scene.grains.push = {{1, -3}, {1, 4}};
+    int met = 0;
+    for (int k = 0; k < 800; ++k) {
+      scene.step();
+      for (const TouchingContact& c : scene.touching()) met += c.second >= 0;
+    }
     const double half = 0.5 * scene.law.step / scene.law.substeps;
     const base::Vec2 start[] = {{0, 0.12}, {0.004, 0.17}};
     double work = 0;
@@ -148,7 +152,7 @@ TYPED_TEST(Push, ItsWorkIsThatAlongTheWay) {
       const base::Vec2 way = base::Vec2{scene.disc(i).x, scene.disc(i).y} - half * scene.velocity(i) - start[i];
       work += scene.grains.mass[i] * dot(scene.grains.push[i], way);
     }
-    EXPECT_GT(std::abs(scene.spin(0)), 0.1) << "they met";
+    EXPECT_GT(met, 0);
     EXPECT_NEAR(scene.totals.push_work, work, std::max(1e-11, 100 * TestFixture::kRounding) * std::abs(work));
   }
 }
