@@ -34,8 +34,10 @@ Found find(const CurveArguments& arguments, const std::string& study, const stor
   for (const auto& [folder, labels] : usage_checked([&] { return catalogue.runs(study, arguments.where); })) {
     const store::Manifest manifest = store::read_manifest(folder);
     if (arguments.bands && manifest.result.outcome != simulation::Outcome::completed) continue;
-    const bool is_drive = manifest.header.kind == "drive", is_basin = manifest.flow_records > 0;
+    const bool is_drive = manifest.header.kind == "drive", has_fluid = manifest.flow_records > 0;
+    const bool is_basin = has_fluid && !is_drive;
     if (!is_drive && !is_basin) continue;
+    if (is_drive && has_fluid) drives.series = present::Series::both;
     (is_drive ? drives : basins).sources.push_back({manifest.header.case_id, manifest.run, labels, folder});
     const auto pile = std::ranges::find(manifest.header.parts, "pile", &simulation::Part::name);
     const bool has_pile = pile != manifest.header.parts.end() && pile->built;
@@ -46,13 +48,13 @@ Found find(const CurveArguments& arguments, const std::string& study, const stor
   throw UsageError("drives and basins have no columns in common: --where \"kind = drive\" or \"kind = flow\"");
 }
 
-/// The columns that are asked for. Without a word, of a drive all; of a basin the error of its volume, and the wave or
-/// the force on its pile, over time.
+/// The columns that are asked for. Without a word, of a drive all, of both series in a saturated bed; of a
+/// basin the error of its volume, and the wave or the force on its pile, over time.
 std::vector<std::string> columns_of(const CurveArguments& arguments, const Found& found) {
   const std::vector<std::string> known = present::column_names(found.series);
   const bool is_basin = found.series == present::Series::water;
   const bool all = arguments.of == std::vector<std::string>{"all"} || (!is_basin && arguments.of.empty());
-  std::vector<std::string> wanted = all ? known : arguments.of;
+  std::vector<std::string> wanted = all ? present::held_columns(found.sources, found.series) : arguments.of;
   if (wanted.empty()) {
     wanted = {"volume_error"};
     if (found.without_pile) wanted.emplace_back("wave");
@@ -104,7 +106,7 @@ int curve(const CurveArguments& arguments) {
     fmt::print(stderr, "nothing matched\n");
     return execute::kNothingMatched;
   }
-  if (arguments.bands && found.series != present::Series::grains) throw UsageError("--bands: basins have no packings");
+  if (arguments.bands && found.series == present::Series::water) throw UsageError("--bands: basins have no packings");
   const std::vector<std::string> columns = columns_of(arguments, found);
   if (arguments.out.empty()) {
     write(found, columns, arguments.bands, stdout);
@@ -129,9 +131,10 @@ void add_curve(CLI::App& app, Call& call) {
   command->add_option("STUDY", arguments.study, "Name or file of a study; default: every run");
   add_where_option(*command, arguments.where);
   command
-      ->add_option("--of", arguments.of,
-                   "Columns to write; all: every one; default: of drives all, of basins volume_error and wave or "
-                   "pile_force_y")
+      ->add_option(
+          "--of", arguments.of,
+          "Columns to write; all: every one that a run has; default: of drives all, of basins volume_error and wave or "
+          "pile_force_y")
       ->type_name("NAME,...")
       ->delimiter(',');
   command->add_option("--against", arguments.against, "Column before those; default: of drives depth, of basins time")
@@ -142,11 +145,16 @@ void add_curve(CLI::App& app, Call& call) {
                     "A row per case and 0.05 m of depth: n packings, mean tip resistance and its 95 % interval");
   add_store_option(*command, arguments.root);
   command->footer(
+      "Drives into a saturated bed have the columns of the grains and those of the fluid, row by row. Where both have\n"
+      "one of a name, the fluid's is named \"fluid:kinetic_energy\". In dry drives beside them those of the fluid are "
+      "nan.\n"
+      "\n"
       "Examples:\n"
       "  runner curve tip_shape --out curves.csv\n"
       "  runner curve density --bands --out bands.csv\n"
       "  runner curve wave --of kinetic_energy,potential_energy --against time\n"
       "  runner curve wave --out wave.svg\n"
+      "  runner curve campaign --where \"fluid != null\" --of tip_resistance,shoulder_pressure --out pressure.svg\n"
       "  runner curve velocity --where \"pile.driving.constant.speed < 0.3\" | head");
   command->callback([&call] { call = [] { return curve(arguments); }; });
 }

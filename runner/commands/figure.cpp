@@ -36,8 +36,13 @@ const std::map<std::string, present::FigureKind> kDriveKinds = {{"bed", present:
                                                                 {"stress", present::FigureKind::stress},
                                                                 {"velocity", present::FigureKind::velocity}};
 const std::map<std::string, present::FlowFigureKind> kFlowKinds = {{"mesh", present::FlowFigureKind::mesh},
-                                                                   {"velocity", present::FlowFigureKind::velocity}};
+                                                                   {"velocity", present::FlowFigureKind::velocity},
+                                                                   {"flow", present::FlowFigureKind::velocity},
+                                                                   {"pressure", present::FlowFigureKind::pressure},
+                                                                   {"porosity", present::FlowFigureKind::porosity}};
 const std::string kQuality = "quality";  ///< of a flow too
+constexpr const char* kOfFlows = "mesh, velocity, pressure, porosity and quality";
+constexpr const char* kOfDrives = "bed, forces, stress and velocity";
 
 bool is_of_flows(const std::string& kind) { return kFlowKinds.contains(kind) || kind == kQuality; }
 
@@ -92,15 +97,20 @@ std::optional<Asked> find(const store::Catalogue& catalogue, const std::string& 
 
 bool is_flow(const Asked& run) { return run.manifest.header.kind == "flow"; }
 
+/// Whether a figure of this kind shows the fluid of the run: of a drive "velocity" is that of its grains.
+bool shows_fluid(const Asked& run, const std::string& figure) {
+  return is_flow(run) || (is_of_flows(figure) && !kDriveKinds.contains(figure));
+}
+
 /// Throws UsageError when a run is not of a kind that has this figure.
 void check_kind(const Asked& run, const std::string& figure) {
   const std::string& kind = run.manifest.header.kind;
   if (kind == "bed") throw UsageError(fmt::format("{} is a bed: nothing is driven into it", run.id));
   if (is_flow(run) && !is_of_flows(figure)) {
-    throw UsageError(fmt::format("{} is a flow: its figures are mesh, velocity and quality", run.id));
+    throw UsageError(fmt::format("{} is a flow: its figures are {}", run.id, kOfFlows));
   }
-  if (kind == "drive" && !kDriveKinds.contains(figure)) {
-    throw UsageError(fmt::format("{} is a drive: its figures are bed, forces, stress and velocity", run.id));
+  if (kind == "drive" && shows_fluid(run, figure) && run.manifest.flow_frames == 0) {
+    throw UsageError(fmt::format("{} is a dry drive: its figures are {}", run.id, kOfDrives));
   }
 }
 
@@ -113,7 +123,7 @@ present::FrameOfRun load_drive(const Asked& run, const fs::path& root, std::opti
           store::read_frame(run.folder, frame_at(*depth, asked, run.id))};
 }
 
-/// The frame of a basin that is nearest to each of the times; without a time its last one.
+/// The frame of the fluid that is nearest to each of the times; without a time its last one.
 std::vector<std::size_t> frames_at(const std::vector<double>& asked, const std::vector<double>& times,
                                    const std::string& id) {
   std::vector<std::size_t> frames;
@@ -146,6 +156,31 @@ void load_flow(const Asked& run, const FigureArguments& arguments, std::vector<p
     panels.push_back({run.title, scene, store::read_flow_frame(run.folder, frame)});
 }
 
+/// The fluid of a drive, at a depth or in the frames nearest to some times; without either its last frame, whose depth
+/// is then the one for the runs that follow. The frames of grains and fluid belong together by their order.
+void load_fluid(const Asked& run, const FigureArguments& arguments, std::optional<double>& depth,
+                std::vector<present::FlowOfRun>& panels) {
+  const std::vector<double> asked = store::asked_depths(run.folder), times = store::flow_frame_times(run.folder);
+  if (asked.size() != times.size()) {
+    throw store::StoreError(store::StoreError::Kind::damaged,
+                            fmt::format("{}: {} frames of the grains and {} of the fluid, which belong together",
+                                        run.folder.string(), asked.size(), times.size()));
+  }
+  std::vector<std::size_t> frames;
+  if (arguments.times.empty()) {
+    if (!depth) depth = asked.back();
+    frames = {frame_at(*depth, asked, run.id)};
+  } else {
+    frames = frames_at(arguments.times, times, run.id);
+  }
+  const scene::SceneSpec scene = study::scene_from_json(run.manifest.header.scene_json);
+  const double surface = surface_of_bed(arguments.root, run.manifest.header);
+  for (const std::size_t frame : frames) {
+    panels.push_back({run.title, scene, store::read_flow_frame(run.folder, frame),
+                      present::PileInBed{surface, store::read_frame(run.folder, frame).depth}});
+  }
+}
+
 std::string draw_drives(const FigureArguments& arguments, const std::vector<Asked>& asked,
                         present::PictureFormat format, const std::optional<present::View>& view) {
   if (!arguments.times.empty())
@@ -159,8 +194,11 @@ std::string draw_drives(const FigureArguments& arguments, const std::vector<Aske
 
 std::string draw_flows(const FigureArguments& arguments, const std::vector<Asked>& asked, present::PictureFormat format,
                        const std::optional<present::View>& view) {
+  if (arguments.depth && !arguments.times.empty()) throw UsageError("--depth and --time: one of them chooses frames");
   std::vector<present::FlowOfRun> runs;
-  for (const Asked& run : asked) load_flow(run, arguments, runs);
+  std::optional<double> depth = arguments.depth;
+  for (const Asked& run : asked)
+    is_flow(run) ? load_flow(run, arguments, runs) : load_fluid(run, arguments, depth, runs);
   if (runs.size() > kMostFlows) throw UsageError(fmt::format("{} panels; at most {}", runs.size(), kMostFlows));
   if (arguments.kind != kQuality) {
     const auto kind = kFlowKinds.at(arguments.kind);
@@ -174,8 +212,9 @@ std::string draw_flows(const FigureArguments& arguments, const std::vector<Asked
 std::string draw(const FigureArguments& arguments, const std::vector<Asked>& asked, present::PictureFormat format,
                  const std::optional<present::View>& view) {
   for (const Asked& run : asked) check_kind(run, arguments.kind);
-  if (std::ranges::all_of(asked, is_flow)) return draw_flows(arguments, asked, format, view);
-  if (std::ranges::any_of(asked, is_flow)) {
+  const auto of_fluid = [&](const Asked& run) { return shows_fluid(run, arguments.kind); };
+  if (std::ranges::all_of(asked, of_fluid)) return draw_flows(arguments, asked, format, view);
+  if (std::ranges::any_of(asked, of_fluid)) {
     throw UsageError(fmt::format("{} and {}: a drive and a flow have no scale in common", asked[0].id, asked[1].id));
   }
   if (asked.size() > kMostDrives) throw UsageError(fmt::format("{} drives; at most {}", asked.size(), kMostDrives));
@@ -215,13 +254,15 @@ void add_figure(CLI::App& app, Call& call) {
   CLI::App* command = app.add_subcommand("figure", "Draw frames of drives or of flows, on scales in common");
   command
       ->add_option("KIND", arguments.kind,
-                   "Of a drive: bed, forces, stress or velocity; of a flow: mesh, velocity or quality")
+                   "Of a drive: bed, forces, stress or velocity; of a flow: mesh, velocity, pressure, porosity or "
+                   "quality; of a drive in a saturated bed all of them, the fluid's velocity as flow")
       ->required()
       ->type_name("")
       ->check([](const std::string& word) {
         return kDriveKinds.contains(word) || is_of_flows(word)
                    ? std::string()
-                   : "there is no figure \"" + word + "\"; there are bed, forces, stress, velocity, mesh and quality";
+                   : "there is no figure \"" + word +
+                         "\"; there are bed, forces, stress, velocity, mesh, flow, pressure, porosity and quality";
       });
   command->add_option("RUN", arguments.runs, "Case ids, or how they begin: one or two drives, or some flows")
       ->required()
@@ -230,7 +271,8 @@ void add_figure(CLI::App& app, Call& call) {
   command
       ->add_option(
           "--time", arguments.times,
-          "Of a basin: the frame nearest to this time [s]; several times are several panels; default: the last")
+          "Of a fluid that is no jet: the frame nearest to this time [s]; several times are several panels; default: "
+          "the last")
       ->type_name("T,...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -249,9 +291,11 @@ void add_figure(CLI::App& app, Call& call) {
       "x is 0 in the middle of the box, y is 0 at its base. A frame has to have been asked for within 1 mm of "
       "--depth.\n"
       "\n"
-      "Kinds, of a flow:\n"
+      "Kinds, of a flow, and of a drive in a saturated bed at a --depth or at some --time:\n"
       "  mesh      the triangles' edges, the free surface and the rest of the boundary\n"
-      "  velocity  colours of the speed, linear in each triangle, and arrows on a regular grid\n"
+      "  velocity  colours of the speed, linear in each triangle, and arrows on a regular grid; of a drive: flow\n"
+      "  pressure  colours of the pressure without the hydrostatic one\n"
+      "  porosity  colours of the share of the plane that is outside grains\n"
       "  quality   histograms of the triangles' shapes and smallest angles, a column per mesh\n"
       "Without --window, a basin is seen as a whole, x being 0 in its middle and y at its bottom; a jet, always in "
       "its\n"
@@ -264,6 +308,7 @@ void add_figure(CLI::App& app, Call& call) {
       "  runner figure bed 1a2b3c4d5e --window -1,1,0,2.2\n"
       "  runner figure mesh 9c4cddb476 --window -0.2,0.4,0.7,1.1 -o mesh.svg\n"
       "  runner figure mesh 5d0e62b1c7 --time 0,2.5,5\n"
+      "  runner figure pressure 1a2b3c4d5e --depth 0.6\n"
       "  runner figure quality 5d0e62b1c7 83aa91f20e --time 5\n"
       "  runner figure velocity 9c4cddb476 212fdcfbb0 -o velocity.png");
   command->callback([&call] { call = [] { return figure(arguments); }; });

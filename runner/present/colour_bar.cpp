@@ -14,7 +14,7 @@ constexpr int kBarStops = 30;  ///< between which colours are straight
 
 }  // namespace
 
-double draw_bar(cairo_t* context, double x, double y, double height, double full, bool more_above) {
+double draw_bar(cairo_t* context, double x, double y, double height, double low, double full, bool more_above) {
   cairo_pattern_t* colours = cairo_pattern_create_linear(0, y + height, 0, y);
   for (int k = 0; k <= kBarStops; ++k) {
     const double share = static_cast<double>(k) / kBarStops;
@@ -29,9 +29,9 @@ double draw_bar(cairo_t* context, double x, double y, double height, double full
   cairo_set_line_width(context, 0.7);
   cairo_rectangle(context, x, y, kBarWidth, height);
   cairo_stroke(context);
-  const auto marks = ticks(0, full, nice_step(full, std::max(2, static_cast<int>(height / 30))));
+  const auto marks = ticks(low, full, nice_step(full - low, std::max(2, static_cast<int>(height / 30))));
   for (const Tick& tick : marks) {
-    const double at = y + height * (1 - tick.value / full);
+    const double at = y + height * (1 - (tick.value - low) / (full - low));
     cairo_move_to(context, x + kBarWidth, at);
     cairo_line_to(context, x + kBarWidth + 4, at);
     cairo_set_source_rgb(context, 0.3, 0.3, 0.3);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "runner/present/figure.h"
@@ -41,7 +43,16 @@ std::vector<Column> all_columns() {
 }
 
 std::vector<Column> all_columns(Series series) {
-  return series == Series::grains ? all_columns<simulation::Record>() : all_columns<simulation::FlowRecord>();
+  if (series == Series::grains) return all_columns<simulation::Record>();
+  if (series == Series::water) return all_columns<simulation::FlowRecord>();
+  std::vector<Column> both = all_columns<simulation::Record>();
+  const std::size_t of_grains = both.size();
+  for (Column& column : all_columns<simulation::FlowRecord>()) {
+    const auto end = both.begin() + static_cast<std::ptrdiff_t>(of_grains);
+    const bool shared = std::find_if(both.begin(), end, [&](const Column& c) { return c.name == column.name; }) != end;
+    both.push_back({(shared ? "fluid:" : "") + column.name, column.unit});
+  }
+  return both;
 }
 
 /// Where a column stands among all of them.
@@ -64,12 +75,60 @@ std::vector<std::vector<double>> chosen(const std::vector<R>& records, const std
   return values;
 }
 
+/// The same of both series of a run. What is at least the number of the grains' columns is a place among the fluid's.
+std::vector<std::vector<double>> chosen_of_both(const CurveSource& source, const std::vector<std::size_t>& places) {
+  const std::size_t of_grains = all_columns(Series::grains).size();
+  std::vector<std::size_t> grains, fluid;
+  for (const std::size_t place : places) {
+    if (place < of_grains) {
+      grains.push_back(place);
+    } else {
+      fluid.push_back(place - of_grains);
+    }
+  }
+  const std::vector<simulation::Record> records = store::read_series(source.run_folder);
+  const std::vector<simulation::FlowRecord> flow_records = store::read_flow_series(source.run_folder);
+  auto of_records = chosen(records, grains), of_flow = chosen(flow_records, fluid);
+  if (flow_records.empty()) {
+    for (auto& column : of_flow) column.assign(records.size(), std::numeric_limits<double>::quiet_NaN());
+  } else if (flow_records.size() != records.size()) {
+    throw store::StoreError(store::StoreError::Kind::damaged,
+                            fmt::format("{}: {} records of the grains and {} of the fluid, which belong together",
+                                        source.run_folder.string(), records.size(), flow_records.size()));
+  }
+  std::vector<std::vector<double>> values;
+  auto next_of_records = of_records.begin(), next_of_flow = of_flow.begin();
+  for (const std::size_t place : places) {
+    values.push_back(std::move(place < of_grains ? *next_of_records++ : *next_of_flow++));
+  }
+  return values;
+}
+
 }  // namespace
 
 std::vector<std::string> column_names(Series series) {
   std::vector<std::string> names;
   for (const Column& column : all_columns(series)) names.push_back(column.name);
   return names;
+}
+
+std::vector<std::string> held_columns(const std::vector<CurveSource>& sources, Series series) {
+  const std::vector<std::string> names = column_names(series);
+  if (series == Series::grains) return names;
+  const std::size_t of_grains = series == Series::both ? all_columns(Series::grains).size() : 0;
+  std::vector<bool> held(names.size());
+  std::fill_n(held.begin(), of_grains, true);
+  for (const CurveSource& source : sources) {
+    const auto values = read_columns(source, series, names);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      held[c] = held[c] || std::ranges::any_of(values[c], [](double value) { return !std::isnan(value); });
+    }
+  }
+  std::vector<std::string> kept;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (held[c]) kept.push_back(names[c]);
+  }
+  return kept;
 }
 
 std::string unit_of(Series series, const std::string& column) {
@@ -80,6 +139,7 @@ std::vector<std::vector<double>> read_columns(const CurveSource& source, Series 
                                               const std::vector<std::string>& columns) {
   std::vector<std::size_t> places;
   for (const std::string& name : columns) places.push_back(place_of(series, name));
+  if (series == Series::both) return chosen_of_both(source, places);
   return series == Series::grains ? chosen(store::read_series(source.run_folder), places)
                                   : chosen(store::read_flow_series(source.run_folder), places);
 }

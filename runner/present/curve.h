@@ -18,16 +18,21 @@ struct CurveSource {
   std::filesystem::path run_folder;
 };
 
-/// Which series of a run: that of the grains, or that of the water.
-enum class Series { grains, water };
+/// Which series of a run: that of the grains, that of the water, or of drives into a saturated bed both, row by row.
+enum class Series { grains, water, both };
 
-/// The names of a series' columns, in their order.
+/// The names of a series' columns, in their order. Of both, those of the grains come first, and a column of the fluid
+/// whose name the grains have too is named "fluid:kinetic_energy".
 std::vector<std::string> column_names(Series series);
+
+/// Those of them that some record of some run has, and all of the grains'. Throws store::StoreError.
+std::vector<std::string> held_columns(const std::vector<CurveSource>& sources, Series series);
 
 /// The unit of a column. Throws std::logic_error when there is none of that name.
 std::string unit_of(Series series, const std::string& column);
 
-/// The values of some columns in all records of a run, column by column. Throws store::StoreError.
+/// The values of some columns in all records of a run, column by column; those of the fluid are NaN in a dry run.
+/// Throws store::StoreError.
 std::vector<std::vector<double>> read_columns(const CurveSource& source, Series series,
                                               const std::vector<std::string>& columns);
 

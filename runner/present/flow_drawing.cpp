@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "runner/present/colour_bar.h"
 #include "runner/present/flow_marks.h"
 #include "runner/present/frame_axes.h"
 #include "runner/present/lettering.h"
+#include "runner/present/table.h"
 
 namespace seapile::present {
 namespace {
@@ -20,23 +22,53 @@ constexpr double kLeastLegend = kLegendNames + kShortestBar + 14;
 constexpr double kLeastWidth = 520;  ///< room for the heading and its key
 constexpr double kSample = 22, kRemarkSize = 10.5;
 
-/// What a figure of jets or of basins says of its lengths and speeds.
+/// What a figure of jets, of basins or of saturated beds says of its lengths and speeds.
 struct Words {
   AxisNames axes;
-  const char *length, *speed, *scales, *speeds;
+  const char *length, *speed, *pressure, *scales, *speeds;
 };
 const Words kOfJets = {{"x [H]", "distance from the axis y [H]", "y [H]"},
                        "H",
-                       "[U]",
+                       "U",
+                       "mu U/H",
                        "H: the die's radius or half gap; x is 0 at its lip.",
                        " U: the mean velocity in the die."};
 const Words kOfBasins = {
-    {"x [m]", "height above the bottom y [m]", "y [m]"}, "m", "[m/s]", "x is 0 in the middle of the basin.", ""};
+    {"x [m]", "height above the bottom y [m]", "y [m]"}, "m", "m/s", "Pa", "x is 0 in the middle of the basin.", ""};
+const Words kOfBeds = {
+    {"x [m]", "height above the base y [m]", "y [m]"}, "m", "m/s", "Pa", "x is 0 in the middle of the box.", ""};
 
-const Words& words_of(const FlowFigure& figure) { return figure.basins ? kOfBasins : kOfJets; }
+const Words& words_of(const FlowFigure& figure) {
+  if (figure.beds) return kOfBeds;
+  return figure.basins ? kOfBasins : kOfJets;
+}
 
 const char* heading(FlowFigureKind kind) {
-  return kind == FlowFigureKind::mesh ? "Mesh of the fluid" : "Velocity of the fluid";
+  switch (kind) {
+    case FlowFigureKind::mesh:
+      return "Mesh of the fluid";
+    case FlowFigureKind::velocity:
+      return "Velocity of the fluid";
+    case FlowFigureKind::pressure:
+      return "Pressure of the fluid";
+    case FlowFigureKind::porosity:
+      return "Porosity";
+  }
+  return "";
+}
+
+/// What the colours stand for, its unit, and the factor to that unit.
+struct Coloured {
+  const char* name;
+  std::string unit;
+  double scale;
+};
+Coloured coloured(const FlowFigure& figure) {
+  if (figure.kind == FlowFigureKind::velocity) return {"speed", words_of(figure).speed, 1};
+  if (figure.kind == FlowFigureKind::porosity) return {"porosity", "-", 1};
+  Coloured pressure{"pressure", words_of(figure).pressure, 1};
+  pressure.scale = prefixed(pressure.unit, std::max(std::abs(figure.low), std::abs(figure.full)));
+  return pressure;
 }
 
 /// What is said below the panels, line by line.
@@ -49,6 +81,12 @@ std::vector<std::string> remarks(const FlowFigure& figure) {
     }
     if (std::ranges::count(sizes, sizes.front()) == std::ssize(sizes)) sizes.resize(1);
     return {fmt::format("The whole mesh has {}. {}", fmt::join(sizes, "; "), words.scales)};
+  }
+  if (figure.kind == FlowFigureKind::porosity) {
+    return {std::string("Colour: share of the plane that is outside grains, linear in each triangle. ") + words.scales};
+  }
+  if (figure.kind == FlowFigureKind::pressure) {
+    return {std::string("Colour: pressure without the hydrostatic one, linear in each triangle. ") + words.scales};
   }
   return {fmt::format("Colour: speed, linear in each triangle. Arrows: velocity at their middles, {:g} {} apart.",
                       figure.spacing, words.length),
@@ -75,7 +113,7 @@ void draw_panel(cairo_t* context, const FlowFigure& figure, const FlowPanel& pan
   cairo_clip(context);
   draw_die(context, map, panel.die);
   if (!panel.pile.empty()) draw_pile(context, map, panel.pile);
-  draw_speeds(context, map, panel.faces, figure.full);
+  draw_values(context, map, panel.faces, figure.low, figure.full);
   draw_edges(context, map, panel.edges, EdgeLook::inner);
   draw_edges(context, map, panel.boundary, EdgeLook::boundary);
   draw_edges(context, map, panel.surface, EdgeLook::surface);
@@ -95,7 +133,8 @@ std::string picture_of(const FlowFigure& figure, PictureFormat format) {
   const Steps steps = axis_steps(widest, tallest, scale);
   double numbers = 0;
   for (const FlowPanel& panel : figure.panels) numbers = std::max(numbers, room_for_numbers(panel.view, steps.y));
-  const bool has_legend = figure.full > 0;
+  const bool has_legend = figure.full > figure.low;
+  const Coloured colours = coloured(figure);
   const double left = kSide + kName + numbers, room = has_legend ? kGap + kLegend : 0;
   const double width = std::max(left + widest * scale + room + kSide, kLeastWidth);
   const std::vector<std::string> lines = remarks(figure);
@@ -117,10 +156,10 @@ std::string picture_of(const FlowFigure& figure, PictureFormat format) {
     description += fmt::format(" {}.", panel.title);
     if (has_legend) {
       const double x = map.right() + kGap;
-      write(context, x, top + 9, "speed", {11});
-      write(context, x, top + 23, words_of(figure).speed, {11});
+      write(context, x, top + 9, colours.name, {11});
+      write(context, x, top + 23, fmt::format("[{}]", colours.unit), {11});
       draw_bar(context, x, top + kLegendNames, std::clamp(tallest * scale - kLegendNames, kShortestBar, kTallestBar),
-               figure.full, false);
+               figure.low * colours.scale, figure.full * colours.scale, false);
     }
     top += each;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -21,7 +22,7 @@ using base::Vec2;
 
 constexpr double kBeforeLip = 2, kBehindLip = 4;  ///< [H]
 constexpr double kMargin = 0.1;                   ///< around a jet [H]
-constexpr double kShareAround = 0.03;             ///< around a basin, of its larger edge
+constexpr double kShareAround = 0.03;             ///< around other fluids, of the larger edge
 constexpr int kMostArrows = 32;                   ///< along the larger edge of the view
 constexpr double kLongestArrow = 0.9;             ///< in spacings of the grid
 
@@ -92,29 +93,50 @@ std::optional<Vec2> velocity_at(Vec2 p, const FlowMesh& mesh, const std::vector<
   return std::nullopt;
 }
 
-void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
-  double edge = 0;
+/// What the colours of a figure stand for, at each vertex of a frame.
+std::vector<double> values_of(FlowFigureKind kind, const simulation::FlowFrame& frame) {
+  if (kind == FlowFigureKind::pressure) return values<double>(frame.vertices, "vertices/pressure");
+  if (kind == FlowFigureKind::porosity) return values<double>(frame.vertices, "vertices/porosity");
+  const auto& velocity = values<double>(frame.vertices, "vertices/velocity");
+  std::vector<double> speeds;
+  for (std::size_t v = 0; 2 * v < velocity.size(); ++v) speeds.push_back(norm(vec2(velocity, v)));
+  return speeds;
+}
+
+/// The triangles in their panels, and the range of their values. Returns which triangles they are.
+std::vector<std::vector<std::size_t>> add_faces(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
   std::vector<std::vector<std::size_t>> seen(runs.size());
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const FlowMesh mesh(runs[k].frame);
-    const auto& velocity = values<double>(runs[k].frame.vertices, "vertices/velocity");
+    const std::vector<double> at_vertices = values_of(figure.kind, runs[k].frame);
     FlowPanel& panel = figure.panels[k];
-    edge = std::max({edge, panel.view.width(), panel.view.height()});
     for (std::size_t t = 0; t < mesh.triangles(); ++t) {
       const auto corner = mesh.triangle(t);
       DrawnTriangle face;
       for (std::size_t i = 0; i < 3; ++i) {
         face.corner[i] = mesh.at(corner[i]);
-        face.speed[i] = norm(vec2(velocity, static_cast<std::size_t>(corner[i])));
+        face.value[i] = at_vertices.at(static_cast<std::size_t>(corner[i]));
       }
       // A flow that diverged may hold what is no number: such a triangle stays white.
-      const bool known = std::ranges::all_of(face.speed, [](double speed) { return std::isfinite(speed); });
+      const bool known = std::ranges::all_of(face.value, [](double value) { return std::isfinite(value); });
       if (!known || !meet(panel.view, around(face.corner))) continue;
-      figure.full = std::max(figure.full, *std::ranges::max_element(face.speed));
+      low = std::min(low, *std::ranges::min_element(face.value));
+      high = std::max(high, *std::ranges::max_element(face.value));
       seen[k].push_back(t);
       panel.faces.push_back(face);
     }
   }
+  if (!(low <= high)) return seen;
+  figure.low = figure.kind == FlowFigureKind::pressure ? low : 0;
+  figure.full = figure.kind == FlowFigureKind::porosity ? 1 : high;
+  return seen;
+}
+
+void add_arrows(const std::vector<FlowOfRun>& runs, const std::vector<std::vector<std::size_t>>& seen,
+                FlowFigure& figure) {
+  double edge = 0;
+  for (const FlowPanel& panel : figure.panels) edge = std::max({edge, panel.view.width(), panel.view.height()});
   figure.spacing = nice_step(edge, kMostArrows);
   figure.length = kLongestArrow * figure.spacing;
   if (figure.full == 0) return;
@@ -137,8 +159,9 @@ void add_velocities(const std::vector<FlowOfRun>& runs, FlowFigure& figure) {
   }
 }
 
-/// Of a basin's pile at the time of the frame; empty without one.
+/// The pile in the frame; empty without one.
 std::vector<Vec2> pile_in(const FlowOfRun& run, double top) {
+  if (run.pile && run.scene.pile) return pile_outline(*run.scene.pile, run.pile->surface - run.pile->depth, top);
   if (!run.scene.basin || !run.scene.basin->pile) return {};
   const basin::BasinSpec& basin = *run.scene.basin;
   pile::PileSpec pile;
@@ -151,13 +174,14 @@ std::vector<Vec2> pile_in(const FlowOfRun& run, double top) {
 }  // namespace
 
 std::string title_of(const FlowOfRun& run) {
+  if (run.pile) return fmt::format("{}, d = {:.3f} m", run.title, run.pile->depth);
   return run.scene.basin ? fmt::format("{}, t = {:.6g} s", run.title, run.frame.time) : run.title;
 }
 
 View default_view(const FlowOfRun& run) {
   const FlowMesh mesh(run.frame);
   const View box = box_of(mesh);
-  if (run.scene.basin) {
+  if (!run.scene.jet) {
     const double around = kShareAround * std::max(box.width(), box.height());
     return {box.left - around, box.right + around, box.bottom - around, box.top + around};
   }
@@ -175,12 +199,13 @@ FlowFigure flow_figure(FlowFigureKind kind, const std::vector<FlowOfRun>& runs, 
   FlowFigure figure;
   figure.kind = kind;
   if (runs.empty()) return figure;
-  figure.basins = runs.front().scene.basin.has_value();
+  figure.basins = !runs.front().scene.jet;
+  figure.beds = std::ranges::all_of(runs, [](const FlowOfRun& run) { return run.scene.fluid.has_value(); });
   View whole = default_view(runs.front());
   for (const FlowOfRun& run : runs) whole = around(whole, default_view(run));
   for (const FlowOfRun& run : runs) {
-    if (run.scene.basin.has_value() != figure.basins) {
-      throw std::invalid_argument("a jet and a basin have no scale in common");
+    if (run.scene.jet.has_value() == figure.basins) {
+      throw std::invalid_argument("a jet and another flow have no scale in common");
     }
     const FlowMesh mesh(run.frame);
     FlowPanel panel;
@@ -199,7 +224,9 @@ FlowFigure flow_figure(FlowFigureKind kind, const std::vector<FlowOfRun>& runs, 
     add_edges(mesh, run.frame, kind, panel);
     figure.panels.push_back(std::move(panel));
   }
-  if (kind == FlowFigureKind::velocity) add_velocities(runs, figure);
+  if (kind == FlowFigureKind::mesh) return figure;
+  const auto seen = add_faces(runs, figure);
+  if (kind == FlowFigureKind::velocity) add_arrows(runs, seen, figure);
   return figure;
 }
 

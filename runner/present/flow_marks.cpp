@@ -34,22 +34,22 @@ Place place(Vec2 p) { return {std::lround(p.x * kGrid), std::lround(p.y * kGrid)
 
 struct Point {
   Vec2 at;
-  double speed = 0;
+  double level = 0;
 };
 
 using Polygon = std::vector<Point>;
 
-/// The part of a convex polygon where the speed is on one side of a level. Two triangles with a common edge cut it at
+/// The part of a convex polygon on one side of a level. Two triangles with a common edge cut it at
 /// the same place: the same sum is formed whichever way the edge is passed.
 Polygon cut(const Polygon& polygon, double level, bool above) {
-  const auto inside = [&](const Point& p) { return above ? p.speed >= level : p.speed <= level; };
+  const auto inside = [&](const Point& p) { return above ? p.level >= level : p.level <= level; };
   Polygon part;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     if (inside(a)) part.push_back(a);
     if (inside(a) == inside(b)) continue;
-    const Point &low = a.speed < b.speed ? a : b, &high = a.speed < b.speed ? b : a;
-    part.push_back({low.at + ((level - low.speed) / (high.speed - low.speed)) * (high.at - low.at), level});
+    const Point &low = a.level < b.level ? a : b, &high = a.level < b.level ? b : a;
+    part.push_back({low.at + ((level - low.level) / (high.level - low.level)) * (high.at - low.at), level});
   }
   return part;
 }
@@ -108,22 +108,28 @@ void draw_sample(cairo_t* context, Vec2 from, Vec2 to, EdgeLook look) {
   cairo_stroke(context);
 }
 
-void draw_speeds(cairo_t* context, const Mapping& map, const std::vector<DrawnTriangle>& faces, double full) {
-  if (full <= 0) return;
+void draw_values(cairo_t* context, const Mapping& map, const std::vector<DrawnTriangle>& faces, double low,
+                 double full) {
+  if (full <= low) return;
   // A band reaches under the next one, which is drawn over it: edges of two colours that only touch leave a pale hair.
-  std::array<Outline, kSpeedBands> bands;
+  std::array<Outline, kBands> bands;
   for (const DrawnTriangle& face : faces) {
     Polygon triangle;
-    for (std::size_t k = 0; k < 3; ++k) triangle.push_back({map(face.corner[k]), face.speed[k] / full * kSpeedBands});
-    const auto [low, high] = std::ranges::minmax(face.speed);
-    const int first = std::max(0, static_cast<int>(low / full * kSpeedBands) - 1);
-    for (int band = first; band < kSpeedBands && band <= high / full * kSpeedBands; ++band) {
+    double least = kBands, most = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double level = (face.value[k] - low) / (full - low) * kBands;
+      triangle.push_back({map(face.corner[k]), level});
+      least = std::min(least, level);
+      most = std::max(most, level);
+    }
+    const int first = std::max(0, static_cast<int>(least) - 1);
+    for (int band = first; band < kBands && band <= most; ++band) {
       bands[static_cast<std::size_t>(band)].add(cut(cut(triangle, band, true), band + 2, false));
     }
   }
   for (std::size_t band = 0; band < bands.size(); ++band) {
     bands[band].trace(context);
-    set_colour(context, colour_of((static_cast<double>(band) + 0.5) / kSpeedBands));
+    set_colour(context, colour_of((static_cast<double>(band) + 0.5) / kBands));
     cairo_fill(context);
   }
 }

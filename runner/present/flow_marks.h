@@ -18,9 +18,10 @@ void draw_edges(cairo_t* context, const Mapping& map, const std::vector<DrawnEdg
 /// A line from one point of the canvas to another as draw_edges() draws it, for the legend.
 void draw_sample(cairo_t* context, base::Vec2 from, base::Vec2 to, EdgeLook look);
 
-/// Triangles coloured by the speed as a share of `full`, linear between the corners, in kSpeedBands bands.
-void draw_speeds(cairo_t* context, const Mapping& map, const std::vector<DrawnTriangle>& faces, double full);
-inline constexpr int kSpeedBands = 50;
+/// Triangles coloured by where their values lie between `low` and `full`, linear between the corners, in kBands bands.
+void draw_values(cairo_t* context, const Mapping& map, const std::vector<DrawnTriangle>& faces, double low,
+                 double full);
+inline constexpr int kBands = 50;
 
 /// Dark arrows with a pale edge, to be seen on any colour.
 void draw_flow(cairo_t* context, const Mapping& map, const std::vector<DrawnVelocity>& arrows);

@@ -56,7 +56,7 @@ void draw_stress_legend(cairo_t* context, const FrameFigure& figure, double x, d
   const auto [unit, size] = pressure_prefix(figure.scale.full);
   write(context, x, y + 9, "major principal", {11});
   write(context, x, y + 23, fmt::format("stress [{}]", unit), {11});
-  const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar),
+  const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar), 0,
                                  figure.scale.full / size, false);
   // A circle: a stress that is the same in all directions.
   const double stress = nice_below(figure.scale.full / size),
@@ -77,7 +77,7 @@ void draw_velocity_legend(cairo_t* context, const FrameFigure& figure, double x,
                           double scale) {
   write(context, x, y + 9, "speed over", {11});
   write(context, x, y + 23, "the pile's [-]", {11});
-  const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar), 1, true);
+  const double bottom = draw_bar(context, x, y + 36, std::clamp(height - 120, kShortestBar, kTallestBar), 0, 1, true);
   const double length = figure.scale.length * scale;
   set_colour(context, colour_of(1));
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);

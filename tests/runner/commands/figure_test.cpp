@@ -115,7 +115,7 @@ TEST_F(FigureCommand, WhatCannotBeDrawnEndsWithTwoAndOneLineAndWritesNothing) {
   const auto before = pictures();
   const std::string flat = ids["flat"];
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"figure", "colours", flat}, "bed, forces, stress, velocity, mesh and quality"},
+      {{"figure", "colours", flat}, "bed, forces, stress, velocity, mesh, flow, pressure, porosity and quality"},
       {{"figure", flat, "bed"}, "there is no figure"},
       {{"figure", "bed", flat, "-o", "c.pdf"}, ".svg or .png"},
       {{"figure", "bed", flat, "-o", "c"}, ".svg or .png"},

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "runner/present/flow_drawing.h"
+#include "runner/store/store_error.h"
 #include "tests/runner/present/flow_of_run.h"
 #include "tests/support/picture.h"
 
@@ -61,6 +62,63 @@ TEST(BasinFigure, ThePileStandsWhereItIsAtTheTimeOfTheFrame) {
 TEST(BasinFigure, AJetAndABasinAreNotPutTogether) {
   EXPECT_THROW(flow_figure(FlowFigureKind::mesh, {straight_jet(), small_basin()}, {}), std::invalid_argument);
   EXPECT_THROW(flow_figure(FlowFigureKind::mesh, {small_basin(), straight_jet()}, {}), std::invalid_argument);
+}
+
+/// In a box of grains 0.7 m high, the tip 0.3 m deep in them, pressures that rise to the right from -1 Pa to 2 Pa, and
+/// porosities from 0.4 at the bottom to 1.
+FlowOfRun saturated_bed() {
+  FlowOfRun run = small_basin();
+  run.title = "fluid.density=1300 kg/m3";
+  run.scene.basin.reset();
+  run.scene.fluid.emplace();
+  run.scene.pile.emplace();
+  run.scene.pile->radius = 0.25;
+  run.scene.pile->tip = pile::FlatTip{};
+  run.pile = PileInBed{0.7, 0.3};
+  const auto& position = std::get<std::vector<double>>(run.frame.vertices[0].values);
+  std::vector<double> pressure, porosity;
+  for (std::size_t k = 0; k < position.size(); k += 2) {
+    pressure.push_back(position[k] + 0.5);
+    porosity.push_back(0.4 + 0.6 * position[k + 1]);
+  }
+  run.frame.vertices.push_back({{"vertices/pressure", "Pa", "", 1, simulation::Entity::vertex}, pressure});
+  run.frame.vertices.push_back({{"vertices/porosity", "-", "", 1, simulation::Entity::vertex}, porosity});
+  return run;
+}
+
+TEST(SaturatedFigure, ThePileStandsAtItsDepthBelowTheBedsSurface) {
+  const FlowFigure figure = flow_figure(FlowFigureKind::mesh, {saturated_bed()}, {});
+  EXPECT_TRUE(figure.beds);
+  EXPECT_EQ(figure.panels.at(0).title, "fluid.density=1300 kg/m3, d = 0.300 m");
+  double lowest = 1;
+  for (const Vec2 p : figure.panels[0].pile) lowest = std::min(lowest, p.y);
+  EXPECT_NEAR(lowest, 0.4, 1e-12);
+}
+
+TEST(SaturatedFigure, PressuresSpanTheirOwnRangeAndPorositiesTheWholeOne) {
+  const FlowFigure pressure = flow_figure(FlowFigureKind::pressure, {saturated_bed()}, {});
+  EXPECT_DOUBLE_EQ(pressure.low, -1);
+  EXPECT_DOUBLE_EQ(pressure.full, 2);
+  EXPECT_EQ(pressure.panels.at(0).faces.size(), 24u);
+  EXPECT_THAT(pressure.panels[0].arrows, IsEmpty());
+  for (const DrawnTriangle& face : pressure.panels[0].faces) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(face.value[k], face.corner[k].x + 0.5);
+  }
+  const FlowFigure porosity = flow_figure(FlowFigureKind::porosity, {saturated_bed()}, {});
+  EXPECT_EQ(porosity.low, 0);
+  EXPECT_EQ(porosity.full, 1);
+  EXPECT_THROW(flow_figure(FlowFigureKind::porosity, {small_basin()}, {}), store::StoreError) << "it holds none";
+}
+
+TEST(SaturatedFigure, SaysWhatItsColoursAre) {
+  const auto svg = [](FlowFigureKind kind, const FlowOfRun& run) {
+    return picture_of(flow_figure(kind, {run}, {}), PictureFormat::svg);
+  };
+  EXPECT_THAT(svg(FlowFigureKind::pressure, saturated_bed()), HasSubstr("pressure without the hydrostatic one"));
+  EXPECT_THAT(svg(FlowFigureKind::porosity, saturated_bed()), HasSubstr("in the middle of the box."));
+  FlowOfRun even = saturated_bed();
+  for (double& p : std::get<std::vector<double>>(even.frame.vertices[2].values)) p = 3;
+  EXPECT_TRUE(svg(FlowFigureKind::pressure, even).ends_with("</svg>\n")) << "a pressure that is the same everywhere";
 }
 
 TEST(BasinFigure, AWindowBesideTheWaterIsSaidInMetres) {

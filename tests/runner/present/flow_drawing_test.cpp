@@ -54,7 +54,8 @@ Picture speeds_of(Vec2 (*velocity)(Vec2), double& full) {
   set_velocity(run, velocity);
   const FlowFigure figure = flow_figure(FlowFigureKind::velocity, {run}, kAll);
   full = figure.full;
-  return drawn([&](cairo_t* c, const Mapping& map) { draw_speeds(c, map, figure.panels.at(0).faces, figure.full); });
+  return drawn(
+      [&](cairo_t* c, const Mapping& map) { draw_values(c, map, figure.panels.at(0).faces, figure.low, figure.full); });
 }
 
 TEST(SpeedOnPaper, HasAtEveryPlaceTheColourOfTheSpeedThere) {

@@ -78,7 +78,7 @@ TEST(FlowFigure, ColoursAreOverTheLargestSpeedOfAllPanels) {
   EXPECT_DOUBLE_EQ(both.full, 2);
   ASSERT_EQ(both.panels.at(0).faces.size(), 24u);
   for (const DrawnTriangle& face : both.panels[0].faces) {
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(face.speed[k], 0.5 * face.corner[k].y);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(face.value[k], 0.5 * face.corner[k].y);
   }
   EXPECT_EQ(flow_figure(FlowFigureKind::velocity, {straight_jet()}, View{0.1, 0.4, 0.1, 0.4}).full, 1.5)
       << "what is beside the window is not measured";
