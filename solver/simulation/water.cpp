@@ -303,12 +303,13 @@ std::string step_water(Simulation& sim, const std::function<void(Simulation&)>& 
 FlowRecord take_flow_record(Simulation& sim) {
   Water& water = *sim.water;
   FlowRecord record = record_of(water.basin);
-  const WaterGathering& g = water.gathering;
+  if (water.gathering.steps > 0) water.recorded = std::exchange(water.gathering, {});
+  record.grain_work = sim.totals.push_work;
+  const WaterGathering& g = water.recorded;
   if (g.steps > 0) {
     const double share = 1 / static_cast<double>(g.steps);
     record.grain_force_x = share * g.grain_force.x;
     record.grain_force_y = share * g.grain_force.y;
-    record.grain_work = sim.totals.push_work;
     record.lowest_porosity = g.lowest_porosity;
     record.clipped_volume = g.clipped_volume;
     record.immersed = g.immersed;
@@ -329,7 +330,6 @@ FlowRecord take_flow_record(Simulation& sim) {
                                          water.basin.flow.mesh.position[t[(k + 1) % 3]]));
   for (const grains::Disc& disc : discs_of(sim)) largest = std::max(largest, 2 * disc.radius);
   record.element_ratio = shortest / largest;
-  water.gathering = {};
   return record;
 }
 

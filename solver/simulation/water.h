@@ -38,7 +38,8 @@ struct Water {
 
   std::vector<base::Vec2> drag = {}, pressure = {};  ///< forces of the last exchange [N/m], (grains)
   std::vector<base::Vec2> velocity = {};             ///< of the grains when the last step of the fluid began [m/s], (grains)
-  WaterGathering gathering = {};
+  WaterGathering gathering = {};  ///< since the last record
+  WaterGathering recorded = {};   ///< what the last record was made of: one that no step of the fluid is in repeats it
 };
 
 /// The basin that a saturated scene's water is, when the pile's tip starts at the height `tip` [m].

@@ -25,7 +25,7 @@ scene::SceneSpec wet() {
   fluid.mesh.size = 0.09;
   fluid.mesh.pile_size = 0.06;
   fluid.mesh.motion = basin::ZonesMotion{0.2};
-  fluid.mesh.remesh->share = 0.05;
+  fluid.mesh.remesh->share = 0.02;
   fluid.time.step = 1e-3;
   return scene;
 }
@@ -85,7 +85,8 @@ TEST(SaturatedRun, KeepsTheVolumeOfTheMixtureThroughAPenetrationWithARemesh) {
   // What is measured is 1e-15 to 1e-13; a fluid that lost what one grain fills would show 1e-3.
   EXPECT_LT(metric(all.result, "volume_error_max"), 1e-8);
   EXPECT_EQ(metric(all.result, "clipped_volume_max"), 0);
-  for (const FlowRecord& r : all.flow_records) EXPECT_NEAR(r.immersed, 1, 1e-6);
+  // Grains overlap walls and pile by some 1e-4 of their radius.
+  for (const FlowRecord& r : all.flow_records) EXPECT_NEAR(r.immersed, 1, 1e-5);
 }
 
 TEST(SaturatedRun, HandsOutBothPhasesTogether) {
@@ -105,7 +106,7 @@ TEST(SaturatedRun, BalancesTheEnergyOfItsGrainsWithTheWorkOfTheFluid) {
 
 TEST(SaturatedRun, ContinuesWithTheSameBitsBeforeAndAfterARemesh) {
   scene::SceneSpec scene = wet();
-  const Told whole = told(scene, {}, {}, {}, 37);
+  const Told whole = told(scene, {}, {}, {}, 29);
   ASSERT_GE(metric(whole.result, "meshes"), 2);
   ASSERT_GE(whole.states.size(), 4u);
   bool first_mesh = false, later_mesh = false;
@@ -169,45 +170,36 @@ TEST(SaturatedRun, GoesBackToTheSameBitsWhenAStepIsRejected) {
 }
 
 /// Largest distance of a grain from its place in another run, by the smallest radius.
-double largest_difference(const Frame& a, const Frame& b) {
-  const auto places = [](const Frame& f) {
-    const auto found = std::ranges::find(f.grains, "grains/position", [](const Array& x) { return x.info.name; });
-    return std::get<std::vector<double>>(found->values);
-  };
-  const std::vector<double> p = places(a), q = places(b);
+double largest_difference(const Simulation& a, const Simulation& b) {
   double most = 0;
-  for (std::size_t k = 0; k < p.size(); ++k) most = std::max(most, std::abs(p[k] - q[k]));
+  for (std::size_t i = 0; i < a.grains.count(); ++i)
+    most = std::max({most, std::abs(a.grains.disc[i].x - b.grains.disc[i].x),
+                     std::abs(a.grains.disc[i].y - b.grains.disc[i].y)});
   return most / grains::RadiusSpec{}.min;
 }
 
-// Until the packing's chaos shows: the first 20 mm of the drive, at which grains have moved by several of these bounds.
+// Over the first steps, until the packing's chaos shows. Both begin with the same grains at rest.
 TEST(SaturatedRun, TendsToTheDryRunAsTheFluidGetsThin) {
   scene::SceneSpec scene = wet();
   scene.contact.precision = grains::Precision::double_;
-  scene.pile->depth = 0.02;
-  scene::RecordSpec record;
-  record.frames = {0.02};
-  const auto last_frame = [&](const scene::SceneSpec& one) {
-    std::vector<Frame> frames;
-    RunHooks hooks;
-    hooks.frame = [&](const Frame& f) { frames.push_back(f); };
-    const RunResult result = run(one, record, settled(one.bed), {}, {}, {}, hooks);
-    EXPECT_EQ(result.outcome, Outcome::completed) << result.reason;
-    return frames.back();
-  };
-  scene::SceneSpec dry = scene;
-  dry.fluid.reset();
-  const Frame reference = last_frame(dry);
-  double last = 1;
-  for (const double density : {1.0, 1e-3}) {
+  const auto difference_after = [&](double density) {
     scene.fluid->density = density;
-    const double difference = largest_difference(last_frame(scene), reference);
+    Simulation saturated = build(scene, settled(scene.bed), {}), dry = build(scene, settled(scene.bed), {});
+    dry.water.reset();
+    for (int k = 0; k < 16; ++k) {
+      step(saturated);
+      step(dry);
+    }
+    EXPECT_GT(largest_difference(dry, build(scene, settled(scene.bed), {})), 1e-3);
+    return largest_difference(saturated, dry);
+  };
+  double last = 1;
+  for (const double density : {1.0, 1e-2, 1e-4}) {
+    const double difference = difference_after(density);
     std::printf("density %g: grains are %.2e smallest radii from where the dry ones are\n", density, difference);
-    EXPECT_LT(difference, last);
+    EXPECT_LT(difference, 0.1 * last);  // it is proportional: 0.01 each time
     last = difference;
   }
-  // The second settling moves grains that were not quite at rest by as much.
-  EXPECT_LT(last, 0.02);
 }
 
 TEST(SaturatedRun, BuildsNoWaterForADryScene) {
@@ -216,9 +208,11 @@ TEST(SaturatedRun, BuildsNoWaterForADryScene) {
   const Simulation sim = build(scene, settled(scene.bed), {});
   EXPECT_FALSE(sim.water.has_value());
   EXPECT_TRUE(sim.grains.push.empty());
-  for (const Part& part : parts(scene))
-    if (part.name == "mesh" || part.name == "fluid" || part.name == "free_surface" || part.name == "coupling")
+  for (const Part& part : parts(scene)) {
+    if (part.name == "mesh" || part.name == "fluid" || part.name == "free_surface" || part.name == "coupling") {
       EXPECT_FALSE(part.built) << part.name;
+    }
+  }
   for (const Array& array : snapshot(sim)) EXPECT_FALSE(array.info.name.starts_with("water/"));
 }
 
