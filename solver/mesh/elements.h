@@ -33,28 +33,38 @@ struct Box {
   base::Vec2 low, high;
 };
 
-Box box_of(const Element& element);
+Box box_of(std::span<const base::Vec2, 3> corner);
 
 /// Which triangles may be near a place: those whose boxes touch its cell of a grid.
 class Buckets {
  public:
-  explicit Buckets(std::span<const Element> elements);
+  explicit Buckets(const TriangleMesh& mesh);
 
-  /// Those that may hold p. None when p is in a cell without triangles.
-  const std::vector<std::int32_t>& at(base::Vec2 p) const;
+  /// Those that may hold p, by rising number. None when p is in a cell without triangles.
+  std::span<const std::int32_t> at(base::Vec2 p) const;
   /// Those that may overlap the box, by rising number.
-  std::vector<std::int32_t> near(const Box& box) const;
+  void near(const Box& box, std::vector<std::int32_t>& found) const;
 
  private:
+  struct Cells {
+    std::int32_t left, right, bottom, top;
+  };
   /// The cells of a box that is a little larger, so that a place at its edge is in it whatever the rounding.
-  std::vector<std::size_t> cells(const Box& box) const;
+  Cells cells(const Box& box) const;
   std::int32_t column(double x) const;
   std::int32_t row(double y) const;
+  std::size_t cell(std::int32_t column, std::int32_t row) const {
+    return static_cast<std::size_t>(row) * columns_ + column;
+  }
+  std::span<const std::int32_t> in(std::size_t cell) const {
+    return {in_cell_.data() + first_[cell], static_cast<std::size_t>(first_[cell + 1] - first_[cell])};
+  }
 
   base::Vec2 low_;
-  double cell_ = 0;
+  double cell_ = 0, per_length_ = 0;
   std::int32_t columns_ = 0, rows_ = 0;
-  std::vector<std::vector<std::int32_t>> in_cell_;
+  std::vector<std::int32_t> first_;    ///< (cells + 1) where a cell's triangles begin
+  std::vector<std::int32_t> in_cell_;  ///< by rising number within a cell
 };
 
 }  // namespace seapile::mesh

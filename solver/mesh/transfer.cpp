@@ -118,8 +118,10 @@ Piece piece_of(std::int32_t from, std::int32_t to, const Polygon& polygon) {
 std::vector<Piece> refinement(std::span<const Element> from, std::span<const Element> to, const Buckets& buckets) {
   std::vector<Piece> pieces;
   Polygon polygon, left;
-  for (std::size_t n = 0; n < to.size(); ++n)
-    for (const std::int32_t o : buckets.near(box_of(to[n]))) {
+  std::vector<std::int32_t> near;
+  for (std::size_t n = 0; n < to.size(); ++n) {
+    buckets.near(box_of(to[n].corner), near);
+    for (const std::int32_t o : near) {
       polygon.assign(to[n].corner.begin(), to[n].corner.end());
       for (int k = 0; k < 3 && !polygon.empty(); ++k) {
         clip(polygon, from[o].corner[k], from[o].corner[(k + 1) % 3], left);
@@ -128,6 +130,7 @@ std::vector<Piece> refinement(std::span<const Element> from, std::span<const Ele
       const Piece piece = piece_of(o, static_cast<std::int32_t>(n), polygon);
       if (piece.area > 0) pieces.push_back(piece);
     }
+  }
   return pieces;
 }
 
@@ -160,7 +163,7 @@ Transfer::Transfer(const TriangleMesh& old_mesh, const TriangleMesh& new_mesh) {
   const double before = area_of(impl->from), after = area_of(impl->to);
   if (!(before > 0 && std::abs(after - before) <= 1e-6 * before))
     throw std::logic_error("mesh: values cannot be carried over to a mesh of another area");
-  const Buckets buckets(impl->from);
+  const Buckets buckets(old_mesh);
   for (const base::Vec2 p : new_mesh.position) impl->weights.push_back(weights_at(p, impl->from, buckets));
   impl->pieces = refinement(impl->from, impl->to, buckets);
 
