@@ -19,7 +19,7 @@ using mesh::TriangleMesh;
 
 /// Turned the other way it is the same number with the other sign, bit for bit: of two triangles at an edge one holds a
 /// place, or both do, when it is on the edge.
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// A triangle as a disc's centre sees it.
 struct View {
@@ -29,7 +29,7 @@ struct View {
   double doubled() const { return turned[0] + turned[1] + turned[2]; }
 };
 
-View view(const TriangleMesh& mesh, std::int32_t triangle, Vec2 centre) {
+inline View view(const TriangleMesh& mesh, std::int32_t triangle, Vec2 centre) {
   const auto& t = mesh.triangle[triangle];
   View v{{mesh.position[t[0]] - centre, mesh.position[t[1]] - centre, mesh.position[t[2]] - centre}, {}};
   for (int k = 0; k < 3; ++k) v.turned[k] = cross(v.corner[k], v.corner[(k + 1) % 3]);
@@ -37,8 +37,8 @@ View view(const TriangleMesh& mesh, std::int32_t triangle, Vec2 centre) {
 }
 
 struct Entry {
-  std::int32_t vertex = 0;
-  double volume = 0;
+  std::int32_t vertex;
+  double volume;
 };
 
 /// A few vertices, in the order in which they were met.
@@ -66,7 +66,7 @@ struct Crossed {
 /// The edges that a disc crosses, in the order in which they were met.
 struct FewCrossed {
   static constexpr int kMost = 8;
-  double radius;
+  double radius = 0;
   std::array<Crossed, kMost> edge;
   int count = 0;
 
@@ -87,11 +87,13 @@ struct FewCrossed {
 /// triangle, or of those around the vertex, plus kink_j times the integral of s over each cap.
 class ByKinks {
  public:
-  ByKinks(const TriangleMesh& mesh, const Location& location, const Disc& disc)
-      : mesh_(mesh), location_(location), centre_{disc.x, disc.y}, r_(disc.radius), crossed_{disc.radius} {}
+  ByKinks(const TriangleMesh& mesh, const Location& location) : mesh_(mesh), location_(location) {}
 
-  /// False when the disc is none of these.
-  bool make(std::int32_t t, const View& v) {
+  /// False when the disc is none of these. `v`: how its centre sees t, which holds it.
+  bool make(const Disc& disc, std::int32_t t, const View& v) {
+    centre_ = {disc.x, disc.y};
+    r_ = crossed_.radius = disc.radius;
+    crossed_.count = 0;
     int held = -1;
     for (int k = 0; k < 3; ++k) {
       if (outside(v.corner[k])) continue;
@@ -166,7 +168,6 @@ class ByKinks {
       double arc = left;
       if (m > 0) {
         arc = std::atan2(cross(leaves[m], leaves[m + 1]), dot(leaves[m], leaves[m + 1]));
-        if (arc < -1) arc += 2 * std::numbers::pi;
         left -= arc;
       }
       const double part = area[m] - area[m + 1] + 0.5 * r_ * r_ * arc;
@@ -184,7 +185,7 @@ class ByKinks {
     return true;
   }
 
-  bool cross_over(const Crossed c) {
+  bool cross_over(const Crossed& c) {
     const std::int32_t edge = location_.across[c.edge];
     if (edge < 0) return false;
     const std::int32_t beyond = edge / 3, k = edge % 3;
@@ -213,7 +214,7 @@ class ByKinks {
   const TriangleMesh& mesh_;
   const Location& location_;
   Vec2 centre_;
-  double r_;
+  double r_ = 0;
   FewCrossed crossed_;
 };
 
@@ -227,6 +228,7 @@ class Rows {
   void make(const TriangleMesh& mesh, const mesh::Buckets& buckets, Location& location, std::span<const Disc> discs,
             Kernel kernel, std::size_t from, std::size_t to) {
     count.reserve(to - from);
+    ByKinks kinks(mesh, location);
     for (std::size_t i = from; i < to; ++i) {
       const std::size_t before = used_, grains_left = to - i;
       if (used_ + FewEntries::kMost > vertex.size()) grow(5 * grains_left);
@@ -237,8 +239,7 @@ class Rows {
         if (kernel == Kernel::hat) {
           if (t >= 0) at_centre(mesh, disc, t, v);
         } else {
-          ByKinks kinks(mesh, location, disc);
-          if (t >= 0 && kinks.make(t, v))
+          if (t >= 0 && kinks.make(disc, t, v))
             write({kinks.sum.entry.data(), static_cast<std::size_t>(kinks.sum.count)});
           else
             by_pieces(mesh, buckets, disc);
@@ -270,23 +271,16 @@ class Rows {
     return -1;
   }
 
-  /// A few entries of different vertices. There is room for them.
+  /// A few entries of different vertices, for which there is room.
   void write(std::span<const Entry> entries) {
-    // Without branches: which of two is the higher is as good as random.
-    std::array<std::int64_t, FewEntries::kMost> key;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      key[k] = (static_cast<std::int64_t>(entries[k].vertex) << 8) + static_cast<std::int64_t>(k);
-      for (std::size_t j = k; j > 0; --j) {
-        const std::int64_t low = std::min(key[j - 1], key[j]), high = std::max(key[j - 1], key[j]);
-        key[j - 1] = low;
-        key[j] = high;
-      }
+    for (const Entry& e : entries) {
+      // By counting, without branches: which of two is the higher is as good as random.
+      std::size_t at = used_;
+      for (const Entry& other : entries) at += other.vertex < e.vertex ? 1 : 0;
+      vertex[at] = e.vertex;
+      volume[at] = std::max(e.volume, 0.0);
     }
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      const Entry& e = entries[key[k] & 255];
-      vertex[used_] = e.vertex;
-      volume[used_++] = std::max(e.volume, 0.0);
-    }
+    used_ += entries.size();
   }
 
   void at_centre(const TriangleMesh& mesh, const Disc& disc, std::int32_t t, const View& v) {
@@ -335,7 +329,7 @@ class Rows {
 
 }  // namespace
 
-Location::Location(const TriangleMesh& mesh) : across(3 * mesh.triangles(), -1) {
+Location::Location(const TriangleMesh& mesh) : triangle(mesh.triangle), across(3 * mesh.triangles(), -1) {
   using Edge = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // lower and higher vertex, place in `across`
   std::vector<Edge> edges;
   edges.reserve(across.size());
@@ -356,8 +350,7 @@ Location::Location(const TriangleMesh& mesh) : across(3 * mesh.triangles(), -1) 
 
 Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Disc> discs, Kernel kernel,
                 base::Crew* crew) {
-  if (location.across.size() != 3 * mesh.triangles())
-    throw std::logic_error("coupling: grains were located in another mesh");
+  if (location.triangle != mesh.triangle) throw std::logic_error("coupling: grains were located in another mesh");
   if (location.last.size() != discs.size()) location.last.assign(discs.size(), -1);
   const mesh::Buckets buckets(mesh);
 

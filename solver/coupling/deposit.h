@@ -10,6 +10,7 @@
 // floats it is the share under water, by Archimedes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ namespace seapile::coupling {
 struct Location {
   explicit Location(const mesh::TriangleMesh& mesh);
 
+  std::vector<std::array<std::int32_t, 3>> triangle;  ///< of the mesh
   std::vector<std::int32_t> across;  ///< (3 triangles) at 3 t + k, of t's edge from corner k: the same edge of its
                                      ///< neighbour, likewise; -1 at the boundary
   std::vector<std::int32_t> last;    ///< (grains) a triangle to look into first, or -1; for speed alone

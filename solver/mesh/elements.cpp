@@ -47,7 +47,7 @@ Buckets::Buckets(const TriangleMesh& mesh) {
   }
   const base::Vec2 extent = all.high - all.low;
   low_ = all.low;
-  cell_ = std::sqrt(extent.x * extent.y / static_cast<double>(box.size()));
+  cell_ = 1.5 * std::sqrt(extent.x * extent.y / static_cast<double>(box.size()));  // about a mean triangle's edge
   per_length_ = 1 / cell_;
   columns_ = 1 + static_cast<std::int32_t>(extent.x / cell_);
   rows_ = 1 + static_cast<std::int32_t>(extent.y / cell_);

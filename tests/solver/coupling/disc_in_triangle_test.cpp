@@ -44,6 +44,20 @@ TEST(DiscInTriangle, ALineThroughTheDiscLeavesASegment) {
   EXPECT_NEAR(beyond_line(2, 0), 16.0 / 3, 1e-14);
 }
 
+TEST(DiscInTriangle, WhatLiesBeyondALineIsExactUpToTouching) {
+  // 2/3 s^3 - x (acos x - x s), in long double where it does not cancel, and by its series (1 - x)^2.5 8 sqrt(2)/15 (1
+  // - 3/28 (1 - x) + ...) where it does.
+  for (int k = 0; k <= 1000; ++k) {
+    const double x = k / 1000.0 * 0.99;
+    const long double s = std::sqrt((1 - static_cast<long double>(x)) * (1 + static_cast<long double>(x))),
+                      exact = 2 * s * s * s / 3 - x * (std::acos(static_cast<long double>(x)) - x * s);
+    EXPECT_NEAR(beyond_line(1, x) / static_cast<double>(exact), 1, x < 0.9 ? 1e-15 : 2e-13) << x;
+  }
+  for (const double u : {1e-12, 1e-7, 1e-4})
+    EXPECT_NEAR(beyond_line(1, 1 - u) / (std::pow(1 - (1 - u), 2.5) * 8 * std::sqrt(2.0) / 15 * (1 - 3.0 / 28 * u)), 1,
+                1e-9);
+}
+
 TEST(DiscInTriangle, TouchingIsNoOverlap) {
   EXPECT_NEAR(disc_in_triangle(1, {-3, 1}, {3, 1}, {0, 4}).area, 0, 1e-15);       // an edge
   EXPECT_NEAR(disc_in_triangle(1, {0, 1}, {3, 4}, {-3, 4}).area, 0, 1e-15);       // a vertex

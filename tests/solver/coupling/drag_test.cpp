@@ -107,15 +107,15 @@ TEST(Drag, ASwarmFallsByRichardsonAndZaki) {
     double reynolds, at_08, at_06;
   };
   // The exponent of U = U_t phi^n depends on the shape only through Re_t.
-  for (const auto& [reynolds, at_08, at_06] : {Row{3e-4, 4.79, 4.79}, Row{0.25, 4.58, 4.63}, Row{66, 3.26, 3.40},
-                                               Row{3600, 2.56, 2.60}, Row{2e4, 2.47, 2.49}}) {
+  for (const Row& row : {Row{3e-4, 4.79, 4.79}, Row{0.25, 4.58, 4.63}, Row{66, 3.26, 3.40}, Row{3600, 2.56, 2.60},
+                         Row{2e4, 2.47, 2.49}}) {
     const fluid::Properties water = water_of(1000);
     const DragSpec law{DragClosure::dallavalle, DragPorosity::plane};
-    const double d = root_of([&](double x) { return carrying(law, water, x, 1) * x / 1e-6 - reynolds; });
+    const double d = root_of([&](double x) { return carrying(law, water, x, 1) * x / 1e-6 - row.reynolds; });
     const double alone = carrying(law, water, d, 1);
     const auto exponent = [&](double phi) { return std::log(carrying(law, water, d, phi) / alone) / std::log(phi); };
-    EXPECT_NEAR(exponent(0.8), at_08, 0.015) << reynolds;
-    EXPECT_NEAR(exponent(0.6), at_06, 0.015) << reynolds;
+    EXPECT_NEAR(exponent(0.8), row.at_08, 0.015) << row.reynolds;
+    EXPECT_NEAR(exponent(0.6), row.at_06, 0.015) << row.reynolds;
   }
 }
 
