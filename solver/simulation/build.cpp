@@ -34,12 +34,10 @@ grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& 
   return law;
 }
 
-/// Displacements and depths count from the grains' present places.
-void start_here(Simulation& sim) {
-  sim.origin.clear();
-  for (std::size_t i = 0; i < sim.grains.count(); ++i)
-    sim.origin.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
-  sim.surface = grains::bed_surface({sim.grains.disc.data(), sim.grains.count()}, sim.box.left, sim.box.right);
+/// g (1 - rho/rho_p) [m/s2]; g when the scene is dry.
+double weight_in_fluid(const scene::SceneSpec& scene) {
+  const double g = scene.bed.domain.gravity;
+  return scene.fluid ? g * (1 - scene.fluid->density / scene.bed.grains.density) : g;
 }
 
 Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contact, grains::Grains grains,
@@ -54,7 +52,9 @@ Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contac
   else if (contact.precision == grains::Precision::double_)
     sim.contacts.emplace<grains::ContactSystem<double>>();
   std::visit([&](auto& system) { enclose(system, sim.grains); }, sim.contacts);
-  start_here(sim);
+  for (std::size_t i = 0; i < sim.grains.count(); ++i)
+    sim.origin.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
+  sim.surface = grains::bed_surface({sim.grains.disc.data(), sim.grains.count()}, sim.box.left, sim.box.right);
   sim.totals.feature.resize(2);
   sim.team = team_of(execution);
   return sim;
@@ -68,26 +68,26 @@ const std::vector<T>& values(const std::vector<Array>& arrays, const std::string
   throw std::invalid_argument("the bed has no array " + name + " of the expected type");
 }
 
-/// The grains of a saturated scene at its start: of less weight, at rest again (so that wet and dry runs have one
-/// packing).
-void immerse(Simulation& sim, const scene::SceneSpec& scene, const std::vector<Array>& resume_from) {
-  sim.law.gravity *= 1 - scene.fluid->density / scene.bed.grains.density;
-  if (resume_from.empty()) {
-    std::vector<Record> unused;
-    settle(sim, scene.bed.preparation.longest, unused, [](double) {});
-    sim.clock.step = 0;
-    sim.gathering = {};
-    sim.totals = {};
-    sim.totals.feature.resize(2);
-  } else {
-    const auto& origin = values<double>(resume_from, "grains/origin");
-    if (origin.size() != 2 * sim.grains.count()) throw std::invalid_argument("the state is of another bed");
-    for (std::size_t i = 0; i < sim.grains.count(); ++i) {
-      sim.grains.disc[i].x = origin[2 * i];
-      sim.grains.disc[i].y = origin[2 * i + 1];
-    }
+/// The grains of a saturated scene at its start: the bed's packing, settled again under its weight in the fluid, so that
+/// wet and dry runs are of one packing. As arrays: what is built of them knows nothing of how they came to rest.
+std::vector<Array> immersed(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution) {
+  Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
+  sim.law.gravity = weight_in_fluid(scene);
+  std::vector<Record> unused;
+  settle(sim, scene.bed.preparation.longest, unused, [](double) {});
+  return arrays_of(sim.grains);
+}
+
+/// The same, from a snapshot of the run: its origins are where it began.
+std::vector<Array> origins_of(const std::vector<Array>& state) {
+  std::vector<Array> start;
+  for (const Array& array : state) {
+    if (array.info.name != "grains/id" && array.info.name != "grains/origin" && array.info.name != "grains/radius")
+      continue;
+    start.push_back(array);
+    if (array.info.name == "grains/origin") start.back().info.name = "grains/position";
   }
-  start_here(sim);
+  return start;
 }
 
 }  // namespace
@@ -100,11 +100,14 @@ Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double fr
 
 Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution,
                  const std::vector<Array>& resume_from) {
-  Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
+  const std::vector<Array> start = !scene.fluid          ? bed.grains
+                                   : resume_from.empty() ? immersed(scene, bed, execution)
+                                                         : origins_of(resume_from);
+  Simulation sim = enclosed(scene.bed, scene.contact, grains_of(start, scene.bed.grains.density), execution);
+  sim.law.gravity = weight_in_fluid(scene);
   if (static_cast<std::int64_t>(sim.grains.count()) != scene.bed.grains.count)
     throw std::invalid_argument("the bed has " + std::to_string(sim.grains.count()) + " grains, the scene " +
                                 std::to_string(scene.bed.grains.count));
-  if (scene.fluid) immerse(sim, scene, resume_from);
   if (!scene.pile) return sim;
 
   Pile& pile = sim.pile.emplace();
