@@ -43,6 +43,14 @@ inline std::vector<grains::Disc> jittered_lattice(int count, int columns, double
   return discs;
 }
 
+/// A push of its own for every grain, up to `size` along each axis [m/s2].
+inline std::vector<base::Vec2> random_push(std::size_t count, double size, std::uint64_t seed) {
+  std::vector<base::Vec2> push;
+  for (std::size_t i = 0; i < count; ++i)
+    push.push_back({base::uniform(-size, size, seed, 0, i), base::uniform(-size, size, seed, 1, i)});
+  return push;
+}
+
 /// The system of a solver: blocks in one of two number formats, or all pairs.
 template <class Solver>
 struct SystemOf {
