@@ -21,6 +21,19 @@ double mean_of(std::span<const Record> records, std::span<const FlowRecord> flow
   return time > 0 ? sum / time : FlowRecord::kAbsent;
 }
 
+/// Standard deviation of a column about its mean, over the same records.
+double deviation_of(std::span<const Record> records, std::span<const FlowRecord> flow, double FlowRecord::*column) {
+  const double mean = mean_of(records, flow, column);
+  double sum = 0, time = 0;
+  for (std::size_t k = 0; k < flow.size(); ++k) {
+    const double value = flow[k].*column;
+    if (records[k].depth < kFrom || records[k].depth >= kTo || !std::isfinite(value)) continue;
+    sum += records[k].span * (value - mean) * (value - mean);
+    time += records[k].span;
+  }
+  return time > 0 ? std::sqrt(sum / time) : FlowRecord::kAbsent;
+}
+
 /// The largest |value| of a column.
 double largest(std::span<const FlowRecord> flow, double FlowRecord::*column) {
   double most = 0;
@@ -49,6 +62,8 @@ std::vector<Metric> water_metrics(std::span<const Record> records, std::span<con
   add("fluid_sleeve_force_mean", mean(&FlowRecord::sleeve_force_y), "N/m",
       "mean force of the fluid on the sleeve, 0.2-1.2 m");
   add("face_pressure_mean", mean(&FlowRecord::face_pressure), "Pa", "mean excess pore pressure u1, 0.2-1.2 m");
+  add("face_pressure_fluctuation", deviation_of(records, flow, &FlowRecord::face_pressure), "Pa",
+      "standard deviation of the records' u1, 0.2-1.2 m");
   add("shoulder_pressure_mean", mean(&FlowRecord::shoulder_pressure), "Pa", "mean excess pore pressure u2, 0.2-1.2 m");
   add("sleeve_pressure_mean", mean(&FlowRecord::sleeve_pressure), "Pa", "mean excess pore pressure u3, 0.2-1.2 m");
   add("grain_force_mean", mean(&FlowRecord::grain_force_y), "N/m",
