@@ -139,7 +139,7 @@ Parts take(const Simulation& sim, bool pushed) {
   push.resize(2 * count);
   parts.add("grains/push", "m/s2", "acceleration by forces besides gravity and contacts", 2, Entity::grain,
             std::move(push));
-  parts.add("totals/push_work", "J/m", "work of the push since the start", 1, Entity::run,
+  parts.add("push/work", "J/m", "work of the push since the start", 1, Entity::run,
             std::vector<double>{t.push_work});
   return parts;
 }
@@ -275,7 +275,7 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
     if (state[k].values.index() != values.index()) refuse(info.name, "of another type");
     if (state[k].info.columns != info.columns || size(state[k].values) % info.columns != 0) refuse(info.name, "of other columns");
     const bool fixed = info.entity == Entity::grain || info.name == "pile/motion" || info.name == "totals" ||
-                       info.name == "totals/push_work" || info.name == "gathering" || info.name == "clock/step" ||
+                       info.name == "push/work" || info.name == "gathering" || info.name == "clock/step" ||
                        info.name == "blocks/bodies_count" || info.name == "list/closing";
     const bool never_listed = info.name == "list/position" && (size(values) == 0 || size(state[k].values) == 0);
     if (fixed && !never_listed && size(state[k].values) != size(values)) refuse(info.name, "of another length");
@@ -358,7 +358,7 @@ void restore(Simulation& sim, const std::vector<Array>& all) {
   if (!is_pushed(state)) return;
   const auto& push = source.get<double>("grains/push");
   for (std::size_t i = 0; i < sim.grains.count(); ++i) sim.grains.push.push_back({push[2 * i], push[2 * i + 1]});
-  sim.totals.push_work = source.get<double>("totals/push_work")[0];
+  sim.totals.push_work = source.get<double>("push/work")[0];
 }
 
 std::uint64_t state_hash(const Simulation& sim) {

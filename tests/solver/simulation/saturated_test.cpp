@@ -203,6 +203,16 @@ TEST(SaturatedRun, TendsToTheDryRunAsTheFluidGetsThin) {
   }
 }
 
+// A file keeps arrays in groups by the parts of their names.
+TEST(SaturatedRun, HasAStateInWhichNoArrayIsTheGroupOfAnother) {
+  const scene::SceneSpec scene = wet();
+  Simulation sim = build(scene, settled(scene.bed), {});
+  step(sim);
+  const std::vector<Array> state = snapshot(sim);
+  for (const Array& a : state)
+    for (const Array& b : state) EXPECT_FALSE(b.info.name.starts_with(a.info.name + "/")) << b.info.name;
+}
+
 TEST(SaturatedRun, MeetsTheFirstGrainUnderItsPile) {
   for (const pile::Tip& tip : {pile::Tip{pile::ConicalTip{}}, pile::Tip{pile::FlatTip{}}}) {
     scene::SceneSpec scene = wet();

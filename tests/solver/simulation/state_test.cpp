@@ -205,7 +205,7 @@ TEST(State, AMissingUnknownOrMisplacedArrayIsRefusedByName) {
   std::vector<Array> more = state;
   std::vector<Array> half = snapshot(pushed(20, 20));
   half.pop_back();
-  EXPECT_THAT(refusal(sim, half), HasSubstr("totals/push_work"));
+  EXPECT_THAT(refusal(sim, half), HasSubstr("push/work"));
   more.push_back({{"fluid/velocity", "m/s", "", 2, Entity::run}, std::vector<double>(4)});
   EXPECT_THAT(refusal(sim, more), HasSubstr("fluid/velocity"));
   EXPECT_NE(refusal(sim, {}), "");
