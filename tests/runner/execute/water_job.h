@@ -1,4 +1,4 @@
-// A study of water alone through the real program.
+// A study of water, alone or around grains, through the real program.
 #pragma once
 
 #include <gmock/gmock.h>
