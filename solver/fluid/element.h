@@ -211,8 +211,8 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
       Scalar radial = N[i] * body_y + txy * bx[i] + syy * by[i] + along * Ry;
       if (axisymmetric) radial += N[i] * inverse_r * (hoop + dilation);
       residual[3 * i + 1] += volume * radial;
-      residual[3 * i + 2] +=
-          volume * (N[i] * continuity + bx[i] * (phi * Rx - answer_x) + by[i] * (phi * Ry - answer_y));
+      residual[3 * i + 2] += volume * (N[i] * continuity + phi * (bx[i] * Rx + by[i] * Ry) -
+                                       (bx[i] * answer_x + by[i] * answer_y));
     }
   }
 
