@@ -213,6 +213,30 @@ TEST(SaturatedRun, HasAStateInWhichNoArrayIsTheGroupOfAnother) {
     for (const Array& b : state) EXPECT_FALSE(b.info.name.starts_with(a.info.name + "/")) << b.info.name;
 }
 
+// In double precision, after the last grains that rolled have stopped. What is measured is 1e-11 radii and 1e-7 m/s.
+TEST(SaturatedRun, ABedUnderStillWaterWithThePileAtRestStaysStill) {
+  scene::SceneSpec scene = wet();
+  scene.bed.grains.count = 150;
+  scene.contact.precision = grains::Precision::double_;
+  scene.pile->driving = pile::ConstantDriving{0};
+  Simulation sim = build(scene, settled(scene.bed), {});
+  const auto go_on = [&](int steps) {
+    for (int k = 0; k < steps; ++k) ASSERT_EQ(objection(sim, step(sim)), "");
+  };
+  go_on(5000);
+  const std::vector<grains::Disc> before(sim.grains.disc.begin(), sim.grains.disc.begin() + 150);
+  go_on(10000);  // 1e5 sub-steps
+  double creep = 0, current = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    creep = std::max(creep, std::hypot(sim.grains.disc[i].x - before[i].x, sim.grains.disc[i].y - before[i].y) / before[i].radius);
+  const std::vector<double>& unknown = sim.water->basin.flow.unknown;
+  for (std::size_t v = 0; v < unknown.size() / 3; ++v)
+    current = std::max(current, std::hypot(unknown[3 * v], unknown[3 * v + 1]));
+  std::printf("creep %.1e radii, currents %.1e m/s\n", creep, current);
+  EXPECT_LT(creep, 1e-6);
+  EXPECT_LT(current, 1e-6);
+}
+
 TEST(SaturatedRun, MeetsTheFirstGrainUnderItsPile) {
   for (const pile::Tip& tip : {pile::Tip{pile::ConicalTip{}}, pile::Tip{pile::FlatTip{}}}) {
     scene::SceneSpec scene = wet();
