@@ -66,8 +66,11 @@ class Reader {
     read_exclude();
     read_when();
     read_fidelity();
-    if (const Value* checks = member("checks"); checks && checks->kind != Kind::null)
-      grammar_.checks = read_checks(list("checks"), problems_);
+    if (const Value* checks = member("checks"); checks && checks->kind != Kind::null) {
+      const std::vector<Value>& entries = list("checks");
+      grammar_.checks = read_checks(entries, problems_);
+      grammar_.claims = read_claims(entries, problems_);
+    }
     report_unknown_keys(
         document_,
         {"study", "question", "base", "axes", "zip", "exclude", "when", "replicates", "fidelity", "record", "checks"},

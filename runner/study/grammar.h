@@ -6,6 +6,7 @@
 
 #include "runner/study/assignment.h"
 #include "runner/study/check_grammar.h"
+#include "runner/study/claim_grammar.h"
 #include "runner/study/json_value.h"
 #include "runner/study/schema.h"
 #include "runner/study/study.h"
@@ -40,6 +41,7 @@ struct Grammar {
   std::vector<Match> exclude;
   std::vector<When> when;
   std::vector<CheckText> checks;
+  std::vector<ClaimText> claims;     ///< of the same list
   std::vector<Assignment> fidelity;  ///< what it fills in where the study says nothing
   std::vector<Assignment> set;       ///< of the command line, for scenes
 };

@@ -51,9 +51,10 @@ Study read(const std::filesystem::path& file, const Options& options) {
   Expansion expansion = expand(grammar, file.parent_path(), problems);
   const bool whole = problems.empty() && options.set.empty() && !options.seeds;
   auto checks = find_checks(grammar.checks, file.parent_path(), expansion.cases, whole, problems);
+  auto claims = find_claims(grammar.claims, expansion.cases, whole, problems);
   stop_if_bad();
   return {grammar.name,     grammar.question, file, sha256(*bytes), expansion.record, std::move(expansion.cases),
-          std::move(checks)};
+          std::move(checks), std::move(claims)};
 }
 
 }  // namespace seapile::study

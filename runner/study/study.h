@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runner/study/check.h"
+#include "runner/study/claim.h"
 #include "solver/base/problem.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/array.h"
@@ -43,6 +44,7 @@ struct Study {
   scene::RecordSpec record;
   std::vector<Case> cases;    ///< in the order of the expansion, each id once
   std::vector<Check> checks;  ///< of those cases; no part of their identity
+  std::vector<Claim> claims;  ///< likewise
 };
 
 /// What the command line adds to a study.
