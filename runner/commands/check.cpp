@@ -8,6 +8,7 @@
 #include "runner/commands/checked.h"
 #include "runner/commands/claimed.h"
 #include "runner/commands/command.h"
+#include "runner/commands/packings.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/check_table.h"
 #include "runner/present/claim_table.h"
@@ -40,7 +41,7 @@ int exit_code(const std::vector<present::Comparison>& comparisons, const std::ve
 }
 
 int check(const CheckArguments& arguments) {
-  const study::Study study = study::read(arguments.study, arguments.options);
+  const study::Study study = read_settled(arguments.study, arguments.options, arguments.root);
   const CheckedCases cases(study, arguments.root);
   const std::vector<present::Claimed> claims = claimed(study, cases);
   if (cases.watched().empty() && (claims.empty() || arguments.accept)) {

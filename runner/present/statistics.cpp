@@ -187,6 +187,15 @@ std::size_t sample_needed(double sd, double margin, double power, double alpha) 
   return *needed;
 }
 
+std::optional<std::size_t> sample_for_half_width(double sd, double half_width, double level) {
+  require(sd >= 0, "a standard deviation is not negative");
+  require(half_width >= 0, "a half-width is not negative");
+  return smallest_sample([&](std::size_t n) {
+    const auto count = static_cast<double>(n);
+    return student_quantile(0.5 + level / 2, count - 1) * sd / std::sqrt(count) <= half_width;
+  });
+}
+
 std::string words(Decision decision) {
   switch (decision) {
     case Decision::confirmed:

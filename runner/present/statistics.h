@@ -99,6 +99,11 @@ double equivalence_power(double margin, double standard_error, double degrees_of
 /// 0 < power < 1, or when more than a million pairs would be needed.
 std::size_t sample_needed(double sd, double margin, double power = kPower, double alpha = kAlpha);
 
+/// The smallest sample whose mean has an interval of at most this half-width, t_{(1+level)/2}(n-1) sd / sqrt(n), when
+/// values scatter with the sample deviation `sd`. Absent beyond a million. Throws std::invalid_argument unless sd >= 0
+/// and half_width >= 0.
+std::optional<std::size_t> sample_for_half_width(double sd, double half_width, double level = kLevel);
+
 enum class Side { above, below };  ///< of a bound
 
 enum class Decision {

@@ -1,6 +1,7 @@
 // What a study file says, taken apart by its grammar and checked piece by piece; nothing is expanded yet.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "runner/study/check_grammar.h"
 #include "runner/study/claim_grammar.h"
 #include "runner/study/json_value.h"
+#include "runner/study/packing_rule.h"
 #include "runner/study/schema.h"
 #include "runner/study/study.h"
 
@@ -37,7 +39,8 @@ struct Grammar {
   Value base;         ///< an object
   Value record_text;  ///< an object, what is said of the record
   scene::RecordSpec record;
-  std::vector<Axis> axes;  ///< the first varies slowest; zip after the axes, replicates last
+  std::vector<Axis> axes;                   ///< the first varies slowest; zip after the axes, replicates last
+  std::optional<PackingRule> packing_rule;  ///< decides how many values the last axis has
   std::vector<Match> exclude;
   std::vector<When> when;
   std::vector<CheckText> checks;
@@ -51,5 +54,7 @@ Grammar read_grammar(const Value& document, const Options& options, base::Proble
 
 /// Number of combinations of the axes, before any is excluded; as a double because it may be any product.
 double combination_count(const Grammar& grammar);
+/// The same with as many packings as a rule may come to.
+double most_combinations(const Grammar& grammar);
 
 }  // namespace seapile::study
