@@ -6,9 +6,12 @@
 
 #include "runner/commands/accept.h"
 #include "runner/commands/checked.h"
+#include "runner/commands/claimed.h"
 #include "runner/commands/command.h"
+#include "runner/commands/packings.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/check_table.h"
+#include "runner/present/claim_table.h"
 
 namespace seapile::commands {
 namespace {
@@ -20,22 +23,30 @@ struct CheckArguments {
   present::Format format = present::Format::table;
 };
 
-/// A failure outweighs what cannot be decided.
-int exit_code(const std::vector<present::Comparison>& comparisons) {
+/// A failure outweighs what cannot be decided. What a claim comes to is a finding, and no failure, unless the study
+/// expects something of it.
+int exit_code(const std::vector<present::Comparison>& comparisons, const std::vector<present::Claimed>& claims) {
   const auto any = [&](present::Finding finding) {
     return std::ranges::any_of(comparisons,
                                [&](const present::Comparison& one) { return present::judge(one).finding == finding; });
   };
-  if (any(present::Finding::failed)) return execute::kCheckFailed;
-  const bool open = any(present::Finding::missing) || any(present::Finding::underpowered);
+  const auto any_claim = [&](present::Standing standing) {
+    return std::ranges::any_of(
+        claims, [&](const present::Claimed& one) { return present::standing(one, present::judge(one)) == standing; });
+  };
+  if (any(present::Finding::failed) || any_claim(present::Standing::contrary)) return execute::kCheckFailed;
+  const bool open =
+      any(present::Finding::missing) || any(present::Finding::underpowered) || any_claim(present::Standing::undecided);
   return open ? execute::kNothingMatched : execute::kDone;
 }
 
 int check(const CheckArguments& arguments) {
-  const study::Study study = study::read(arguments.study, arguments.options);
+  const study::Study study = read_settled(arguments.study, arguments.options, arguments.root);
   const CheckedCases cases(study, arguments.root);
-  if (cases.watched().empty()) {
-    fmt::print(stderr, "{} has no {}\n", study.name, study.checks.empty() ? "checks" : "check of any of these cases");
+  const std::vector<present::Claimed> claims = claimed(study, cases);
+  if (cases.watched().empty() && (claims.empty() || arguments.accept)) {
+    const bool none = study.checks.empty() && (study.claims.empty() || arguments.accept);
+    fmt::print(stderr, "{} has no {}\n", study.name, none ? "checks" : "check of any of these cases");
     return execute::kNothingMatched;
   }
   if (arguments.accept) return accept_values(study, cases, *arguments.accept, arguments.note);
@@ -45,11 +56,15 @@ int check(const CheckArguments& arguments) {
     comparisons.push_back(std::move(drift));
   const bool for_people = arguments.format == present::Format::table;
   const bool packings = std::ranges::any_of(study.cases, [](const study::Case& one) { return !is_water(one.scene); });
-  fmt::print("{}", for_people ? present::check_text(comparisons)
-                              : present::text(present::check_table(comparisons), arguments.format));
-  fmt::print(for_people ? stdout : stderr, "{}{}", for_people ? "\n" : "",
-             present::check_remark(comparisons, packings));
-  return exit_code(comparisons);
+  if (for_people) {
+    const std::string checks = present::check_text(comparisons), of_claims = present::claim_text(claims);
+    fmt::print("{}{}{}\n", checks, checks.empty() || of_claims.empty() ? "" : "\n", of_claims);
+  } else {
+    fmt::print("{}", present::text(present::with_claims(present::check_table(comparisons), claims), arguments.format));
+  }
+  fmt::print(for_people ? stdout : stderr, "{}{}", present::check_remark(comparisons, packings),
+             present::claim_remark(claims));
+  return exit_code(comparisons, claims);
 }
 
 }  // namespace
@@ -68,10 +83,9 @@ void add_check(CLI::App& app, Call& call) {
   add_format_option(*command, arguments.format);
   add_store_option(*command, arguments.root);
   command->footer(
-      "The last lines say FAILED where a mean is further from the published value than the tolerance, or where our "
-      "own\n"
-      "value has moved since it was accepted. Exit code 3: a check failed; 4: none, but results are missing or too "
-      "few.\n\n"
+      "The last lines say FAILED where a mean is further from the published value than the tolerance, where our own\n"
+      "value has moved since it was accepted, or where a claim came out otherwise than the study expects. Exit code\n"
+      "3: a check failed; 4: none, but results are missing or too few.\n\n"
       "Examples:\n"
       "  runner check my_study.json\n"
       "  runner check my_study.json --seeds 5 --format csv\n"

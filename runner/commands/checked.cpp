@@ -10,18 +10,53 @@
 
 namespace seapile::commands {
 
-CheckedCases::CheckedCases(const study::Study& study, const std::filesystem::path& root) : study_(study) {
-  const bool with_bed = std::ranges::any_of(
-      study.checks, [](const study::Check& check) { return check.metric.starts_with(store::kOfBed); });
-  std::map<std::pair<std::string, std::size_t>, std::size_t> places;
-  for (const study::Check& check : study.checks) {
-    for (const study::Reference& reference : check.references) {
-      for (const std::size_t i : reference.cases) {
-        if (!cases_.contains(i)) cases_[i] = store::read_finished(root, study.cases[i].id, with_bed);
-        const auto [place, first] = places.try_emplace({check.metric, i}, watched_.size());
-        if (first) watched_.push_back({check.metric, i, check.drift});
-        watched_[place->second].drift = std::min(watched_[place->second].drift, check.drift);
+namespace {
+
+/// What each check and each claim needs.
+std::vector<Asked> asked_by(const std::vector<study::Check>& checks) {
+  std::vector<Asked> all;
+  for (const study::Check& check : checks) {
+    Asked& asked = all.emplace_back(Asked{check.pointer, check.metric, {}});
+    for (const study::Reference& reference : check.references)
+      asked.cases.insert(asked.cases.end(), reference.cases.begin(), reference.cases.end());
+  }
+  return all;
+}
+
+std::vector<Asked> asked_by(const std::vector<study::Claim>& claims) {
+  std::vector<Asked> all;
+  for (const study::Claim& claim : claims) {
+    Asked& asked = all.emplace_back(Asked{claim.pointer, claim.metric, {}});
+    for (const study::ClaimRow& row : claim.rows) {
+      for (const study::ClaimPair& pair : row.packings) {
+        asked.cases.push_back(pair.of);
+        if (pair.over) asked.cases.push_back(*pair.over);
       }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+CheckedCases::CheckedCases(const study::Study& study, const std::filesystem::path& root)
+    : study_(study), checks_(asked_by(study.checks)), claims_(asked_by(study.claims)) {
+  const auto of_bed = [](const Asked& asked) { return asked.metric.starts_with(store::kOfBed); };
+  const bool with_bed = std::ranges::any_of(checks_, of_bed) || std::ranges::any_of(claims_, of_bed);
+  for (const auto* all : {&checks_, &claims_}) {
+    for (const Asked& asked : *all) {
+      for (const std::size_t i : asked.cases) {
+        if (!cases_.contains(i)) cases_[i] = store::read_finished(root, study.cases[i].id, with_bed);
+      }
+    }
+  }
+  std::map<std::pair<std::string, std::size_t>, std::size_t> places;
+  for (std::size_t k = 0; k < checks_.size(); ++k) {
+    for (const std::size_t i : checks_[k].cases) {
+      const double drift = study.checks[k].drift;
+      const auto [place, first] = places.try_emplace({checks_[k].metric, i}, watched_.size());
+      if (first) watched_.push_back({checks_[k].metric, i, drift});
+      watched_[place->second].drift = std::min(watched_[place->second].drift, drift);
     }
   }
   refuse_unknown_metrics();
@@ -30,19 +65,19 @@ CheckedCases::CheckedCases(const study::Study& study, const std::filesystem::pat
 /// A name that no finished case knows is misspelt; one that only some know is of newer or older runs.
 void CheckedCases::refuse_unknown_metrics() const {
   base::Problems problems;
-  for (const study::Check& check : study_.checks) {
-    std::vector<std::string> names;
-    for (const study::Reference& reference : check.references) {
-      for (const std::size_t i : reference.cases) {
+  for (const auto* all : {&checks_, &claims_}) {
+    for (const Asked& asked : *all) {
+      std::vector<std::string> names;
+      for (const std::size_t i : asked.cases) {
         if (!finished(i)) continue;
         for (const std::string& name : finished(i)->metric_names()) {
           if (std::ranges::find(names, name) == names.end()) names.push_back(name);
         }
       }
+      if (names.empty() || std::ranges::find(names, asked.metric) != names.end()) continue;
+      problems.push_back({asked.pointer + "/metric", fmt::format("no finished case has a metric \"{}\"", asked.metric),
+                          "a metric that `runner show` lists", study::nearest(asked.metric, names)});
     }
-    if (names.empty() || std::ranges::find(names, check.metric) != names.end()) continue;
-    problems.push_back({check.pointer + "/metric", fmt::format("no finished case has a metric \"{}\"", check.metric),
-                        "a metric that `runner show` lists", study::nearest(check.metric, names)});
   }
   if (!problems.empty()) throw study::BadInput(study_.file.string(), std::move(problems));
 }
@@ -57,14 +92,17 @@ const simulation::Metric* CheckedCases::metric(std::size_t study_case, const std
   return one ? one->metric(name) : nullptr;
 }
 
-/// The unit that the store has the metric in; before any case is finished that of the reference is as good.
-std::string CheckedCases::unit(const study::Check& check) const {
-  for (const Watched& watched : watched_) {
-    const simulation::Metric* found =
-        watched.metric == check.metric ? metric(watched.study_case, check.metric) : nullptr;
-    if (found) return found->unit;
+/// The unit that the store has the metric in; before any case is finished that of the study is as good.
+std::string CheckedCases::unit(const Asked& asked, const std::string& as_written) const {
+  for (const std::size_t i : asked.cases) {
+    if (const simulation::Metric* found = metric(i, asked.metric)) return found->unit;
   }
-  return check.references.empty() ? "" : check.references.front().unit;
+  return as_written;
+}
+
+std::string CheckedCases::unit(const study::Claim& claim) const {
+  const auto asked = std::ranges::find(claims_, claim.pointer, &Asked::pointer);
+  return asked == claims_.end() ? claim.unit : unit(*asked, claim.unit);
 }
 
 present::Measured CheckedCases::measured(std::size_t study_case, const std::string& name) const {
@@ -76,8 +114,9 @@ present::Measured CheckedCases::measured(std::size_t study_case, const std::stri
 std::vector<present::Comparison> CheckedCases::with_published() const {
   std::vector<present::Comparison> comparisons;
   base::Problems problems;
-  for (const study::Check& check : study_.checks) {
-    const std::string in = unit(check);
+  for (std::size_t k = 0; k < checks_.size(); ++k) {
+    const study::Check& check = study_.checks[k];
+    const std::string in = unit(checks_[k], check.references.empty() ? "" : check.references.front().unit);
     for (const study::Reference& reference : check.references) {
       std::string misfit;
       const auto in_unit = [&](double number) {

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "runner/commands/command.h"
+#include "runner/commands/packings.h"
 #include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/summary.h"
@@ -45,17 +48,7 @@ void draw(const study::Study& study, const std::vector<present::CaseResult>& res
   if (!surfaces.curves.empty()) draw_as(study.name + "_surface", surfaces);
 }
 
-int run(const RunArguments& arguments) {
-  const study::Study study = study::read(arguments.study, arguments.options);
-  execute::Campaign campaign(study, arguments.campaign);
-  if (const auto objection = execute::objection(campaign.sharing()); !objection.empty()) throw UsageError(objection);
-  for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
-  if (arguments.dry_run) return execute::kDone;
-  const bool idle = std::ranges::all_of(
-      campaign.plan().tasks, [](const execute::Task& task) { return task.decision.action == execute::Action::fresh; });
-  if (idle) fmt::print(stderr, "nothing to run: every case is fresh\n");
-
-  const int code = campaign.carry_out();
+void show(const study::Study& study, const execute::Campaign& campaign, const fs::path& root) {
   std::vector<present::CaseResult> results;
   const std::vector<execute::CaseOutcome> outcomes = campaign.outcomes();
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -64,8 +57,54 @@ int run(const RunArguments& arguments) {
                        kind_of(study.cases[i].scene)});
   }
   fmt::print("{}", present::closing_text(results));
-  draw(study, results, arguments.campaign.root);
-  return code;
+  draw(study, results, root);
+}
+
+/// The packings of the next round, where the study's rule asks for one; says what it decided, in one line.
+std::optional<std::int64_t> more_packings(const study::Study& study, const fs::path& root) {
+  if (!study.packing_rule) return {};
+  const auto round = packing_round(study, root);
+  if (!round) return {};
+  fmt::print(stderr, "{}\n", present::round_text(*round, packings_asked(*study.packing_rule)));
+  if (round->next == round->packings) return {};
+  return static_cast<std::int64_t>(round->next);
+}
+
+/// Round after round while the study's rule asks for more packings; a study without one is one round. A round whose
+/// results are all there is only read, so that the same command finds its way through what it has done to where it
+/// ended.
+int run(const RunArguments& arguments) {
+  const fs::path root = arguments.campaign.root;
+  study::Options options = arguments.options;
+  std::string text;  // of the study: its SHA-256
+  for (;;) {
+    const study::Study study = study::read(arguments.study, options);
+    if (!text.empty() && text != study.file_sha256)
+      throw UsageError(arguments.study + " was changed while it ran; give the command again");
+    text = study.file_sha256;
+    execute::Campaign campaign(study, arguments.campaign);
+    if (const auto objection = execute::objection(campaign.sharing()); !objection.empty()) throw UsageError(objection);
+    const bool idle = std::ranges::all_of(campaign.plan().tasks, [](const execute::Task& task) {
+      return task.decision.action == execute::Action::fresh;
+    });
+    if (idle) {
+      options.packings = more_packings(study, root);
+      if (options.packings) continue;
+    }
+    for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
+    if (arguments.dry_run) return execute::kDone;
+    if (idle) fmt::print(stderr, "nothing to run: every case is fresh\n");
+
+    const int code = campaign.carry_out();
+    if (!idle && code == execute::kDone) {
+      options.packings = more_packings(study, root);
+      if (options.packings) continue;
+    } else if (!idle && study.packing_rule) {
+      fmt::print(stderr, "this round is not done: no more packings are asked for\n");
+    }
+    show(study, campaign, root);
+    return code;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -32,6 +33,22 @@ double variance(std::span<const double> values) {
   double sum = 0;
   for (const double value : values) sum += (value - middle) * (value - middle);
   return sum / static_cast<double>(values.size() - 1);
+}
+
+/// The smallest sample of two or more that is enough, where more never is less; absent beyond kMostPairs.
+std::optional<std::size_t> smallest_sample(const auto& enough) {
+  // Double until it is enough, then halve the gap.
+  std::size_t high = 2;
+  while (!enough(high)) {
+    if (high >= kMostPairs) return {};
+    high *= 2;
+  }
+  std::size_t low = high / 2;  // not enough, or 1
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (enough(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 }  // namespace
@@ -165,18 +182,71 @@ std::size_t sample_needed(double sd, double margin, double power, double alpha) 
     const auto count = static_cast<double>(n);
     return equivalence_power(margin, sd / std::sqrt(count), count - 1, alpha) >= power;
   };
-  // More pairs never give less power: double until it is enough, then halve the gap.
-  std::size_t high = 2;
-  while (!enough(high)) {
-    require(high < kMostPairs, "more than a million pairs would be needed");
-    high *= 2;
+  const auto needed = smallest_sample(enough);
+  require(needed.has_value(), "more than a million pairs would be needed");
+  return *needed;
+}
+
+std::optional<std::size_t> sample_for_half_width(double sd, double half_width, double level) {
+  require(sd >= 0, "a standard deviation is not negative");
+  require(half_width >= 0, "a half-width is not negative");
+  return smallest_sample([&](std::size_t n) {
+    const auto count = static_cast<double>(n);
+    return student_quantile(0.5 + level / 2, count - 1) * sd / std::sqrt(count) <= half_width;
+  });
+}
+
+std::string words(Decision decision) {
+  switch (decision) {
+    case Decision::confirmed:
+      return "confirmed";
+    case Decision::refuted:
+      return "refuted";
+    case Decision::not_distinguishable:
+      return "not distinguishable";
+    case Decision::underpowered:
+      return "underpowered";
   }
-  std::size_t low = high / 2;  // not enough, or 1
-  while (high - low > 1) {
-    const std::size_t middle = low + (high - low) / 2;
-    (enough(middle) ? high : low) = middle;
-  }
-  return high;
+  return "";
+}
+
+Decision test_bound(const Estimate& estimate, Side side, double bound, double margin, double alpha) {
+  require(margin > 0 && std::isfinite(margin), "a margin is positive");
+  require(alpha > 0 && alpha < 0.5, "the risk alpha lies between 0 and 0.5");
+  if (!(estimate.degrees_of_freedom > 0)) return Decision::underpowered;
+  const double reach = student_quantile(1 - alpha, estimate.degrees_of_freedom) * estimate.standard_error;
+  const double beyond = side == Side::above ? estimate.value - bound : bound - estimate.value;
+  if (beyond > reach) return Decision::confirmed;
+  if (beyond < -reach) return Decision::refuted;
+  const Interval both = interval(estimate, 1 - alpha);
+  const bool within = both.low > bound - 2 * margin && both.high < bound + 2 * margin;
+  return within ? Decision::not_distinguishable : Decision::underpowered;
+}
+
+double bound_power(double distance, double sd, std::size_t n, double alpha) {
+  require(distance >= 0, "a distance is not negative");
+  require(sd >= 0, "a standard deviation is not negative");
+  require(n >= 2, "a test needs two values");
+  if (distance == 0) return alpha;
+  constexpr double kCertain = 30;  // standard errors: beyond it the chance is 1, and its series is long
+  const double away = distance * std::sqrt(static_cast<double>(n)) / sd;
+  const auto degrees = static_cast<double>(n - 1);
+  const double t = student_quantile(1 - alpha, degrees);
+  if (!(away < kCertain + t)) return 1;
+  return boost::math::cdf(boost::math::complement(boost::math::non_central_t(degrees, away), t));
+}
+
+std::optional<std::size_t> sample_to_decide(double sd, double distance, double margin, double power, double alpha) {
+  require(sd >= 0 && std::isfinite(sd), "a standard deviation is not negative");
+  require(margin > 0 && std::isfinite(margin), "a margin is positive");
+  require(power > 0 && power < 1, "a power lies between 0 and 1");
+  // A number `distance` away stays within 2 margins at least as often as one on the bound within so much less.
+  const double room = 2 * margin - distance;
+  return smallest_sample([&](std::size_t n) {
+    if (bound_power(distance, sd, n, alpha) >= power) return true;
+    const auto count = static_cast<double>(n);
+    return room > 0 && equivalence_power(room, sd / std::sqrt(count), count - 1, alpha / 2) >= power;
+  });
 }
 
 }  // namespace seapile::present

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -97,5 +98,45 @@ double equivalence_power(double margin, double standard_error, double degrees_of
 /// pairs scatter with the standard deviation `sd`. Throws std::invalid_argument unless margin > 0, sd >= 0 and
 /// 0 < power < 1, or when more than a million pairs would be needed.
 std::size_t sample_needed(double sd, double margin, double power = kPower, double alpha = kAlpha);
+
+/// The smallest sample whose mean has an interval of at most this half-width, t_{(1+level)/2}(n-1) sd / sqrt(n), when
+/// values scatter with the sample deviation `sd`. Absent beyond a million. Throws std::invalid_argument unless sd >= 0
+/// and half_width >= 0.
+std::optional<std::size_t> sample_for_half_width(double sd, double half_width, double level = kLevel);
+
+enum class Side { above, below };  ///< of a bound
+
+enum class Decision {
+  confirmed,            ///< the number lies on the claimed side
+  refuted,              ///< it lies on the other
+  not_distinguishable,  ///< neither is shown; that it is twice the margin away is excluded
+  underpowered,         ///< neither; the sample is too small to say even that
+};
+
+/// "confirmed", "refuted", "not distinguishable", "underpowered".
+std::string words(Decision decision);
+
+/// Tests the claim that a number lies on one side of a bound, of which `estimate` is a sample. With the one-sided
+/// confidence bounds low, high = value -+ t_{1-alpha}(nu) s, nu its degrees of freedom and s its standard error, and
+/// for Side::above (Side::below is its mirror image), in this order:
+///   confirmed            low > bound: the test that it is at most `bound` rejects;
+///   refuted              high < bound: the test that it is at least `bound` rejects;
+///   not distinguishable  the two-sided interval at the level 1 - alpha lies within bound +- 2 margin;
+///   underpowered         otherwise, and without an interval.
+/// Error rates, exact for normal values: what is not so is confirmed with a chance of alpha on the bound and of less
+/// beyond it, what is so is refuted as seldom, and a number that is 2 margins or more away is called not
+/// distinguishable with a chance of alpha / 2 at most. Of a log ratio, bound and margin are logarithms. Throws
+/// std::invalid_argument unless the margin is positive and 0 < alpha < 0.5.
+Decision test_bound(const Estimate& estimate, Side side, double bound, double margin, double alpha = kAlpha);
+
+/// Chance that a one-sided test at `alpha` of n values sees that their mean is `distance` beyond the bound: the
+/// non-central t distribution. Throws std::invalid_argument unless distance >= 0, sd >= 0 and n >= 2.
+double bound_power(double distance, double sd, std::size_t n, double alpha = kAlpha);
+
+/// The smallest sample with which test_bound() decides, with the chance `power`, where the truth is `distance` from the
+/// bound and values scatter with the standard deviation `sd`: it sees the side, or that there is nothing to see within
+/// 2 margins. Absent beyond a million. Throws std::invalid_argument as sample_needed() does.
+std::optional<std::size_t> sample_to_decide(double sd, double distance, double margin, double power = kPower,
+                                            double alpha = kAlpha);
 
 }  // namespace seapile::present

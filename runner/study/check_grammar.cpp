@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "runner/study/any_quantity.h"
 #include "runner/study/check.h"
-#include "runner/study/csv.h"
+#include "runner/study/claim_grammar.h"
 #include "runner/study/field_reader.h"
-#include "runner/study/unit.h"
 
 namespace seapile::study {
 namespace {
@@ -16,28 +16,6 @@ using Kind = Value::Kind;
 constexpr const char* kForms =
     R"({"metric": name, "reference": "reference/name.csv"} or )"
     R"({"metric": name, "value": 1, "tolerance": 0.1, "source": text} or {"metric": name, "at_most": 1})";
-constexpr const char* kAnyNumber = "a number, in SI units or with its unit";
-
-/// A text that says something.
-void read_words(const Value& value, std::string& words, Problems& problems) {
-  read_string(value, words, problems);
-  if (value.kind == Kind::string && trimmed(value.text).empty())
-    problems.push_back({pointer(value.place), "is empty", "a text", ""});
-}
-
-/// A number, in SI units or with its unit: the unit of a metric is known only once it has been computed.
-void read_any_quantity(const Value& value, const std::string& allowed, Quantity& quantity, Problems& problems) {
-  if (value.kind == Kind::number) {
-    quantity = {value.number == 0 ? 0.0 : value.number, ""};
-  } else if (value.kind == Kind::string) {
-    const UnitResult result = read_quantity(value.text, quantity);
-    if (result.problem.empty()) return;
-    problems.push_back({pointer(value.place), fmt::format("\"{}\" {}", value.text.substr(0, 60), result.problem),
-                        allowed, result.nearest});
-  } else {
-    problems.push_back({pointer(value.place), fmt::format("is {}, not a number", kind_name(value)), allowed, ""});
-  }
-}
 
 class EntryReader {
  public:
@@ -46,9 +24,9 @@ class EntryReader {
   CheckText read() {
     text_.place = entry_.place;
     text_.drift = kDrift;
-    report_unknown_keys(entry_,
-                        {"metric", "reference", "value", "tolerance", "at_least", "at_most", "source", "if", "drift"},
-                        problems_);
+    report_unknown_keys(
+        entry_, {"metric", "reference", "value", "tolerance", "at_least", "at_most", "source", "if", "drift", "claim"},
+        problems_);
     if (const Value* metric = member("metric")) {
       read_words(*metric, text_.metric, problems_);
     } else if (!entry_.find("metric")) {
@@ -101,35 +79,14 @@ class EntryReader {
 
   bool has(const char* key) const { return entry_.find(key) != nullptr; }
 
-  /// Two numbers, the second in the unit of the first, which is called `name` and whose unit is the text's; false after
-  /// a problem.
-  bool read_pair(const Value& first, const char* name, const Value& second, const std::string& second_allowed,
-                 double& one, double& other) {
-    const std::size_t before = problems_.size();
-    Quantity leading, following;
-    read_any_quantity(first, kAnyNumber, leading, problems_);
-    read_any_quantity(second, second_allowed, following, problems_);
-    if (problems_.size() > before) return false;
-    text_.unit = leading.unit;
-    one = leading.value;
-    if (leading.unit.empty() != following.unit.empty()) {
-      report(second.place,
-             following.unit.empty() ? fmt::format("has no unit, but {} has one", name)
-                                    : fmt::format("has a unit, but {} has none", name),
-             second_allowed);
-      return false;
-    }
-    const UnitResult in_unit = convert(following, leading.unit);
-    other = in_unit.value;
-    if (!in_unit.problem.empty()) report(second.place, in_unit.problem, second_allowed);
-    return in_unit.problem.empty();
-  }
-
   void read_value(const Value& value, const Value& tolerance) {
     constexpr const char* kPositive = "a number, more than 0, with the unit that the value has";
-    if (!read_pair(value, "the value", tolerance, kPositive, text_.value, text_.tolerance)) return;
-    if (!(text_.tolerance > 0))
-      report(tolerance.place, fmt::format("{} is out of range", number_text(text_.tolerance)), kPositive);
+    const auto pair = read_pair(value, "the value", tolerance, kPositive, problems_);
+    if (!pair) return;
+    text_.value = pair->first;
+    text_.tolerance = pair->second;
+    text_.unit = pair->unit;
+    if (!(text_.tolerance > 0)) report(tolerance.place, out_of_range(text_.tolerance), kPositive);
   }
 
   void read_bounds() {
@@ -138,7 +95,11 @@ class EntryReader {
     const Value *least = member("at_least"), *most = member("at_most");
     double low = 0, high = 0;
     if (least && most) {
-      if (!read_pair(*least, "at_least", *most, kAnyNumber, low, high)) return;
+      const auto pair = read_pair(*least, "at_least", *most, kAnyNumber, problems_);
+      if (!pair) return;
+      low = pair->first;
+      high = pair->second;
+      text_.unit = pair->unit;
       if (high < low) report(most->place, "is less than at_least", "at_least or more");
     } else if (const Value* one = least ? least : most) {
       Quantity quantity;
@@ -160,7 +121,7 @@ class EntryReader {
 std::vector<CheckText> read_checks(const std::vector<Value>& list, Problems& problems) {
   std::vector<CheckText> texts;
   for (const Value& entry : list) {
-    if (entry.kind == Kind::unusable) continue;
+    if (entry.kind == Kind::unusable || is_claim(entry)) continue;
     const std::size_t before = problems.size();
     if (!is_object(entry, problems)) continue;
     CheckText text = EntryReader(entry, problems).read();

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <set>
 
+#include "runner/study/fidelity.h"
 #include "runner/study/field_reader.h"
 #include "runner/study/scene_tree.h"
 
@@ -17,37 +18,6 @@ using Kind = Value::Kind;
 
 constexpr std::size_t kLongestName = 64;
 const Path kSeed = {"bed", "seed"};
-
-/// What a level of fidelity means for the contact solver while driving,
-struct Fidelity {
-  const char* name;
-  const char* method;
-  double step;      ///< [s]
-  double substeps;  ///< 0: the method has none
-  const char* precision;
-};
-constexpr std::array kFidelities = {
-    Fidelity{"thesis", "nonsmooth", 1e-4, 0, "double"},
-    Fidelity{"draft", "soft", 5e-4, 5, "single"},
-    Fidelity{"standard", "soft", 5e-4, 10, "single"},
-    Fidelity{"reference", "soft", 5e-4, 20, "double"},
-};
-
-/// And for a jet: its mesh and, in the thesis, its scheme in time. Errors of the swell ratio: docs/die_swell.md.
-struct JetFidelity {
-  double lip_size, growth, largest_size;  ///< [H]
-};
-constexpr std::array kJetFidelities = {
-    JetFidelity{0.05, 0.05, 0.1},
-    JetFidelity{0.01, 0.2, 0.3},
-    JetFidelity{0.001, 0.12, 0.12},
-    JetFidelity{0.0002, 0.05, 0.06},
-};
-static_assert(kJetFidelities.size() == kFidelities.size());
-
-/// And for a basin: its step, and in the thesis its scheme in time, as the step there is a question of its own.
-constexpr std::array kBasinSteps = {0.0, 2e-3, 1e-3, 5e-4};  // [s]
-static_assert(kBasinSteps.size() == kFidelities.size());
 
 class Reader {
  public:
@@ -66,8 +36,11 @@ class Reader {
     read_exclude();
     read_when();
     read_fidelity();
-    if (const Value* checks = member("checks"); checks && checks->kind != Kind::null)
-      grammar_.checks = read_checks(list("checks"), problems_);
+    if (const Value* checks = member("checks"); checks && checks->kind != Kind::null) {
+      const std::vector<Value>& entries = list("checks");
+      grammar_.checks = read_checks(entries, problems_);
+      grammar_.claims = read_claims(entries, problems_);
+    }
     report_unknown_keys(
         document_,
         {"study", "question", "base", "axes", "zip", "exclude", "when", "replicates", "fidelity", "record", "checks"},
@@ -190,12 +163,16 @@ class Reader {
   void read_replicates() {
     const Value* replicates = member("replicates");
     if (!replicates || !is_object(*replicates, problems_)) return;
+    if (is_packing_rule(*replicates)) {
+      read_rule(*replicates);
+      return;
+    }
     report_unknown_keys(*replicates, {"seed", "seeds"}, problems_);
     const Value* seed = replicates->find("seed");
     const Value* seeds = replicates->find("seeds");
     if ((seed != nullptr) == (seeds != nullptr)) {
       report(replicates->place, seed ? "has both seed and seeds" : "has neither seed nor seeds",
-             "{\"seed\": [1, 2, 3]} or {\"seeds\": 3}");
+             R"({"seed": [1, 2, 3]} or {"seeds": 3}, or a rule with at_least and at_most)");
       return;
     }
     if (options_.seeds) return;
@@ -207,6 +184,15 @@ class Reader {
       read_integer(*seeds, seeds_field(), count, problems_);
       if (problems_.size() == before) add_seeds(count, seeds->place);
     }
+  }
+
+  /// The packings that the rule has come to so far.
+  void read_rule(const Value& replicates) {
+    const auto rule = read_packing_rule(replicates, problems_);
+    if (!rule || options_.seeds) return;
+    const std::int64_t count = std::clamp(options_.packings.value_or(rule->at_least), rule->at_least, rule->at_most);
+    add_seeds(count, replicates.find("at_least")->place);
+    grammar_.packing_rule = *rule;
   }
 
   static base::Field seeds_field() {
@@ -239,33 +225,8 @@ class Reader {
   void read_fidelity() {
     const Value* value = member("fidelity");
     if (!value) return;
-    std::vector<std::string> names;
-    for (const Fidelity& fidelity : kFidelities) names.emplace_back(fidelity.name);
-    const auto index = read_choice(*value, names, problems_);
-    if (!index) return;
-    const Fidelity& fidelity = kFidelities[*index];
-    grammar_.fidelity = {{{"contact", "method"}, string_value(fidelity.method, value->place)},
-                         {{"contact", "step"}, number_value(fidelity.step, value->place)},
-                         {{"contact", "precision"}, string_value(fidelity.precision, value->place)}};
-    if (fidelity.substeps > 0)
-      grammar_.fidelity.push_back({{"contact", "substeps"}, number_value(fidelity.substeps, value->place)});
-
-    const auto fill = [&](const char* path, Value filled) {
-      grammar_.fidelity.push_back({split_path(path), std::move(filled)});
-    };
-    const JetFidelity& jet = kJetFidelities[*index];
-    fill("jet.lip_size", number_value(jet.lip_size, value->place));
-    fill("jet.growth", number_value(jet.growth, value->place));
-    fill("jet.largest_size", number_value(jet.largest_size, value->place));
-    if (std::string_view(fidelity.name) == "thesis") {
-      fill("jet.method.transient.kinematic", string_value("differences", value->place));
-      fill("jet.method.transient.order", number_value(1, value->place));
-      fill("basin.surface.scheme", string_value("galerkin", value->place));
-      fill("basin.time.order", number_value(1, value->place));
-      fill("basin.time.iterated", truth_value(false, value->place));
-    } else {
-      fill("basin.time.step", number_value(kBasinSteps[*index], value->place));
-    }
+    if (const auto index = read_choice(*value, fidelity_names(), problems_))
+      grammar_.fidelity = filled_by_fidelity(*index, value->place);
   }
 
   void read_command_line() {
@@ -298,6 +259,7 @@ class Reader {
     }
     check_value(setting.path, setting.value, problems_);
     replace_axis(setting.path);
+    if (setting.path == kSeed) grammar_.packing_rule.reset();
     grammar_.set.push_back(std::move(setting));
   }
 
@@ -341,6 +303,12 @@ double combination_count(const Grammar& grammar) {
   double count = 1;
   for (const Axis& axis : grammar.axes) count *= static_cast<double>(axis.size());
   return count;
+}
+
+double most_combinations(const Grammar& grammar) {
+  const double count = combination_count(grammar);
+  if (!grammar.packing_rule) return count;
+  return count / static_cast<double>(grammar.axes.back().size()) * static_cast<double>(grammar.packing_rule->at_most);
 }
 
 }  // namespace seapile::study

@@ -1,12 +1,15 @@
 // What a study file says, taken apart by its grammar and checked piece by piece; nothing is expanded yet.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runner/study/assignment.h"
 #include "runner/study/check_grammar.h"
+#include "runner/study/claim_grammar.h"
 #include "runner/study/json_value.h"
+#include "runner/study/packing_rule.h"
 #include "runner/study/schema.h"
 #include "runner/study/study.h"
 
@@ -36,10 +39,12 @@ struct Grammar {
   Value base;         ///< an object
   Value record_text;  ///< an object, what is said of the record
   scene::RecordSpec record;
-  std::vector<Axis> axes;  ///< the first varies slowest; zip after the axes, replicates last
+  std::vector<Axis> axes;                   ///< the first varies slowest; zip after the axes, replicates last
+  std::optional<PackingRule> packing_rule;  ///< decides how many values the last axis has
   std::vector<Match> exclude;
   std::vector<When> when;
   std::vector<CheckText> checks;
+  std::vector<ClaimText> claims;     ///< of the same list
   std::vector<Assignment> fidelity;  ///< what it fills in where the study says nothing
   std::vector<Assignment> set;       ///< of the command line, for scenes
 };
@@ -49,5 +54,7 @@ Grammar read_grammar(const Value& document, const Options& options, base::Proble
 
 /// Number of combinations of the axes, before any is excluded; as a double because it may be any product.
 double combination_count(const Grammar& grammar);
+/// The same with as many packings as a rule may come to.
+double most_combinations(const Grammar& grammar);
 
 }  // namespace seapile::study

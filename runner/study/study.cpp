@@ -42,7 +42,7 @@ Study read(const std::filesystem::path& file, const Options& options) {
   }
 
   const Grammar grammar = read_grammar(document, options, problems);
-  const double count = combination_count(grammar);
+  const double count = most_combinations(grammar);
   if (count > static_cast<double>(kMostCases)) {
     problems.push_back({"/axes", fmt::format("make {:.15g} cases", count), fmt::format("at most {}", kMostCases), ""});
     stop_if_bad();
@@ -51,9 +51,11 @@ Study read(const std::filesystem::path& file, const Options& options) {
   Expansion expansion = expand(grammar, file.parent_path(), problems);
   const bool whole = problems.empty() && options.set.empty() && !options.seeds;
   auto checks = find_checks(grammar.checks, file.parent_path(), expansion.cases, whole, problems);
+  auto claims = find_claims(grammar.claims, expansion.cases, whole, problems);
   stop_if_bad();
-  return {grammar.name,     grammar.question, file, sha256(*bytes), expansion.record, std::move(expansion.cases),
-          std::move(checks)};
+  return {grammar.name,      grammar.question,  file,
+          sha256(*bytes),    expansion.record,  std::move(expansion.cases),
+          std::move(checks), std::move(claims), grammar.packing_rule};
 }
 
 }  // namespace seapile::study

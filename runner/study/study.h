@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "runner/study/check.h"
+#include "runner/study/claim.h"
+#include "runner/study/packing_rule.h"
 #include "solver/base/problem.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/array.h"
@@ -41,8 +43,10 @@ struct Study {
   std::filesystem::path file;
   std::string file_sha256;  ///< of the bytes that were parsed
   scene::RecordSpec record;
-  std::vector<Case> cases;    ///< in the order of the expansion, each id once
-  std::vector<Check> checks;  ///< of those cases; no part of their identity
+  std::vector<Case> cases;                  ///< in the order of the expansion, each id once
+  std::vector<Check> checks;                ///< of those cases; no part of their identity
+  std::vector<Claim> claims;                ///< likewise
+  std::optional<PackingRule> packing_rule;  ///< by which the cases may become more (Options::packings)
 };
 
 /// What the command line adds to a study.
@@ -52,6 +56,8 @@ struct Options {
   std::vector<std::string> set;
   /// --seeds N: bed.seed = 1..N replaces the study's replicates.
   std::optional<std::int64_t> seeds;
+  /// How many packings the study's rule has come to, where it has one; absent: the least that it begins with.
+  std::optional<std::int64_t> packings = {};
 };
 
 inline constexpr std::int64_t kMostCases = 10'000;

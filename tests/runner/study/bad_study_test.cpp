@@ -183,7 +183,8 @@ TEST_F(BadStudyFile, AnyDamageEndsInAStudyOrInItsProblems) {
     "fluid": null}, "axes": {"pile.radius": [0.1, "120 mm"], "pile.driving": ["vibratory", {"constant": {"speed": 0.2}}]},
     "zip": {"pile.friction": [0, 0.5], "bed.seed": [1, 2]}, "exclude": [{"pile.radius": 0.1, "bed.seed": 2}],
     "when": [{"if": {"pile.driving": "vibratory"}, "set": {"pile.depth": 1}}], "fidelity": "draft", "record": {"frames": [0]},
-    "checks": [{"metric": "q", "value": "1 kPa", "tolerance": "5 Pa", "source": "x", "if": {"pile.radius": 0.1}, "drift": 0}]})";
+    "checks": [{"metric": "q", "value": "1 kPa", "tolerance": "5 Pa", "source": "x", "if": {"pile.radius": 0.1}, "drift": 0},
+      {"claim": "c", "number": 1, "metric": "q", "of": {"pile.radius": 0.1}, "over": {"pile.radius": 0.12}, "at_most": 1, "margin": "5 %"}]})";
   ASSERT_TRUE(problems_of(good).empty()) << sentence("", problems_of(good)[0]);
   std::mt19937 random(7);
   const std::string letters = "{}[]\",:0123456789.eE-nulltrufasm/\\ \xff\x01";
