@@ -98,9 +98,10 @@ const std::vector<grains::Disc>& settled_bed() {
     constexpr double kWidth = 0.6, kPitch = kWidth / kColumns;
     std::vector<grains::Disc> discs;
     for (int i = 0; i < kCount; ++i) {
+      const int column = i % kColumns, row = i / kColumns;
       const double r = base::uniform(0.0112, 0.0192, 1, 0, i), room = kPitch / 2 - r;
-      discs.push_back({-kWidth / 2 + kPitch * (i % kColumns + 0.5) + base::uniform(-room, room, 1, 1, i),
-                       kPitch * (i / kColumns + 0.5) + base::uniform(-room, room, 1, 2, i), r, 0});
+      discs.push_back({-kWidth / 2 + kPitch * (column + 0.5) + base::uniform(-room, room, 1, 1, i),
+                       kPitch * (row + 0.5) + base::uniform(-room, room, 1, 2, i), r, 0});
     }
     support::Immersed scene;
     scene.width = kWidth;
