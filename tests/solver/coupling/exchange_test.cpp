@@ -20,8 +20,6 @@ namespace {
 using base::uniform;
 using base::Vec2;
 using fluid::kPressure;
-using fluid::kVelocityX;
-using fluid::kVelocityY;
 using grains::Disc;
 
 constexpr double kStep = 2e-3, kLeast = 0.1, kGrainDensity = 1500;
