@@ -274,27 +274,56 @@ TEST_F(Expand, TheFilesHashIsOfTheBytesThatWereRead) {
   EXPECT_EQ(read(file).file_sha256, sha256(R"({"study": "x"} )"));
 }
 
-TEST(Studies, TipShapeIsTheTwoTipsOnOneBed) {
-  const Study tips = read(SEAPILE_SOURCE_DIR "/studies/tip_shape.json");
+Study shipped(const std::string& name) { return read(SEAPILE_SOURCE_DIR "/studies/" + name + ".json"); }
+
+TEST(Studies, TipShapeIsTheTwoTipsDryAndThenSaturatedOnOneBed) {
+  const Study tips = shipped("tip_shape");
   EXPECT_EQ(tips.name, "tip_shape");
   EXPECT_FALSE(tips.question.empty());
-  ASSERT_EQ(tips.cases.size(), 2u);
-  EXPECT_THAT(tips.cases[0].labels, ElementsAre(Pair("pile.tip", "conical")));
-  EXPECT_THAT(tips.cases[1].labels, ElementsAre(Pair("pile.tip", "flat")));
-  EXPECT_EQ(tips.cases[0].bed_id, tips.cases[1].bed_id);
-  for (const Case& one : tips.cases) {
+  ASSERT_EQ(tips.cases.size(), 4u);
+  for (std::size_t k = 0; k < tips.cases.size(); ++k) {
+    const Case& one = tips.cases[k];
+    EXPECT_EQ(one.scene.fluid.has_value(), k >= 2);
+    EXPECT_EQ(std::holds_alternative<pile::FlatTip>(one.scene.pile->tip), k % 2 == 1);
     EXPECT_EQ(one.scene.pile->driving, pile::Driving(pile::ConstantDriving{0.06}));
     EXPECT_EQ(one.scene.pile->depth, 1.2);
+    EXPECT_EQ(one.bed_id, tips.cases[0].bed_id);
   }
 }
 
 TEST(Studies, VelocityIsThreeSpeedsOnTheBedOfTipShape) {
-  const Study speeds = read(SEAPILE_SOURCE_DIR "/studies/velocity.json");
-  ASSERT_EQ(speeds.cases.size(), 3u);
-  EXPECT_THAT(speeds.cases[2].labels, ElementsAre(Pair("pile.driving.constant.speed", "0.4 m/s")));
-  const Study tips = read(SEAPILE_SOURCE_DIR "/studies/tip_shape.json");
+  const Study speeds = shipped("velocity"), tips = shipped("tip_shape");
+  ASSERT_EQ(speeds.cases.size(), 6u);
+  EXPECT_THAT(speeds.cases[2].labels,
+              ElementsAre(Pair("fluid", "null"), Pair("pile.driving.constant.speed", "0.4 m/s")));
   EXPECT_EQ(speeds.cases[0].id, tips.cases[0].id) << "one case belongs to both studies";
+  EXPECT_EQ(speeds.cases[3].id, tips.cases[2].id);
   EXPECT_EQ(speeds.cases[2].bed_id, tips.cases[0].bed_id);
+}
+
+TEST(Studies, TheCampaignSharesEveryCaseWithTheOthers) {
+  std::set<std::string> campaign;
+  for (const Case& one : shipped("campaign").cases) campaign.insert(one.id);
+  EXPECT_EQ(campaign.size(), 12u);
+  for (const char* name : {"tip_shape", "velocity"})
+    for (const Case& one : shipped(name).cases) EXPECT_TRUE(campaign.contains(one.id)) << name;
+  const Study fluid = shipped("fluid");
+  ASSERT_EQ(fluid.cases.size(), 3u);
+  EXPECT_TRUE(campaign.contains(fluid.cases[0].id) && campaign.contains(fluid.cases[1].id));
+  EXPECT_TRUE(campaign.contains(shipped("surface").cases[0].id)) << "a free surface is what is usual";
+}
+
+TEST(Studies, OfChapterSixAreAllAtItsSize) {
+  for (const char* name : {"tip_shape", "velocity", "fluid", "campaign", "surface", "vibratory"})
+    for (const Case& one : shipped(name).cases) {
+      EXPECT_EQ(one.scene.bed.grains.count, 11596) << name;
+      EXPECT_EQ(one.scene.bed.domain.width, 5) << name;
+      if (one.scene.fluid) {
+        EXPECT_EQ(one.scene.fluid->depth, 4) << name;
+      }
+    }
+  EXPECT_EQ(shipped("domain").cases.size(), 9u);
+  EXPECT_EQ(shipped("coupling").cases.size(), 33u);
 }
 
 TEST(Studies, DensityComparesSpeedsOnTheSameEightBedsOfEachDensity) {
