@@ -153,10 +153,17 @@ class Expander {
     for (const auto& [path, value] : grammar_.fidelity) {
       const bool of_water = path.front() == "jet" || path.front() == "basin";
       if ((of_water ? path.front() : "") != water) continue;
+      if (path.front() == "fluid" && !is_saturated(draft.tree)) continue;
       if (!is_written(draft.tree, path)) assign(draft.tree, scene_schema(), path, value);
     }
     read_spec(draft.tree, draft.scene, draft.problems);
     return draft;
+  }
+
+  /// Whether a scene that is not read yet has a fluid between its grains.
+  static bool is_saturated(const Value& tree) {
+    const Value* fluid = tree.find("fluid");
+    return fluid && fluid->kind != Value::Kind::null;
   }
 
   /// As water_of(), of a scene that is not read yet.

@@ -37,6 +37,10 @@ static_assert(kJetFidelities.size() == kFidelities.size());
 constexpr std::array kBasinSteps = {0.0, 2e-3, 1e-3, 5e-4};  // [s]
 static_assert(kBasinSteps.size() == kFidelities.size());
 
+/// And for the fluid of a saturated bed: its step, and in the thesis the porosity that its law of drag has.
+constexpr std::array kFluidSteps = {1e-4, 2e-3, 1e-3, 5e-4};  // [s]
+static_assert(kFluidSteps.size() == kFidelities.size());
+
 }  // namespace
 
 std::vector<std::string> fidelity_names() {
@@ -57,7 +61,10 @@ std::vector<Assignment> filled_by_fidelity(std::size_t level, const PlacePtr& pl
   fill("jet.lip_size", number_value(jet.lip_size, place));
   fill("jet.growth", number_value(jet.growth, place));
   fill("jet.largest_size", number_value(jet.largest_size, place));
+  fill("fluid.time.step", number_value(kFluidSteps[level], place));
   if (std::string_view(fidelity.name) == "thesis") {
+    fill("fluid.coupling.drag.porosity", string_value("plane", place));
+    fill("fluid.coupling.porosity.kernel", string_value("hat", place));
     fill("jet.method.transient.kinematic", string_value("differences", place));
     fill("jet.method.transient.order", number_value(1, place));
     fill("basin.surface.scheme", string_value("galerkin", place));

@@ -178,6 +178,20 @@ TEST_F(Expand, ExcludeSeesWhatWhenHasSet) {
             1u);
 }
 
+TEST_F(Expand, FidelityFillsTheFluidOfSaturatedCasesAndMakesNone) {
+  const auto cases = [&](const std::string& level) {
+    return study(R"("base": {"pile": {}}, "axes": {"fluid": [null, {}]}, "fidelity": ")" + level + R"(")").cases;
+  };
+  EXPECT_FALSE(cases("thesis")[0].scene.fluid.has_value());
+  const scene::FluidSpec thesis = *cases("thesis")[1].scene.fluid;
+  EXPECT_EQ(thesis.time.step, 1e-4);
+  EXPECT_EQ(thesis.coupling.drag.porosity, coupling::DragPorosity::plane);
+  EXPECT_EQ(thesis.coupling.porosity.kernel, coupling::Kernel::hat);
+  EXPECT_EQ(cases("draft")[1].scene.fluid->time.step, 2e-3);
+  EXPECT_EQ(cases("reference")[1].scene.fluid->time.step, 5e-4);
+  EXPECT_EQ(*cases("standard")[1].scene.fluid, scene::FluidSpec{}) << "what is usual";
+}
+
 TEST_F(Expand, FidelityFillsTheContactSolverOfTheDrive) {
   const auto contact = [&](const std::string& members) {
     return study("\"base\": {\"pile\": {}}, " + members).cases[0].scene.contact;
