@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solver/simulation/flow_state.h"
@@ -52,6 +53,24 @@ void take_surface(FlowRecord& record, const Basin& basin) {
     record.wave = amplitude_of(top, spec.width, spec.depth, static_cast<double>(wave->mode));
 }
 
+/// Largest |v - w| dt/h over the vertices of the triangles, h a triangle's shortest edge. The thesis' (3.19) asks for
+/// max |v| dt <= min h of the whole mesh. A mesh that was made at the end of the step has not moved: it has no w.
+double cfl_of(const Basin& basin) {
+  if (!basin.remeshes.empty() && basin.remeshes.back().time == basin::time_of(basin)) return FlowRecord::kAbsent;
+  const fluid::Flow& flow = basin.flow;
+  double most = 0;
+  for (const auto& t : flow.mesh.triangle) {
+    double edge = std::numeric_limits<double>::infinity(), speed = 0;
+    for (int k = 0; k < 3; ++k) {
+      edge = std::min(edge, norm(flow.mesh.position[t[k]] - flow.mesh.position[t[(k + 1) % 3]]));
+      const base::Vec2 u{flow.u(t[k], fluid::kVelocityX), flow.u(t[k], fluid::kVelocityY)};
+      speed = std::max(speed, norm((1 / flow.porosity[t[k]]) * u - flow.mesh_velocity[t[k]]));
+    }
+    most = std::max(most, speed / edge);
+  }
+  return most * basin.spec.time.step;
+}
+
 /// A report on a remesh as a row of numbers, and back.
 std::vector<double> row_of(const basin::RemeshReport& r) {
   std::vector<double> row{r.time, r.velocity_difference, r.energy_change, r.momentum_change};
@@ -96,6 +115,7 @@ FlowRecord record_of(const Basin& basin) {
   record.vertices = static_cast<double>(basin.flow.mesh.vertices());
   record.meshes = static_cast<double>(1 + basin.remeshes.size());
   record.iterations = static_cast<double>(basin.last_iterations);
+  record.cfl = cfl_of(basin);
   return record;
 }
 

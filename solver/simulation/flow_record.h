@@ -31,6 +31,7 @@ struct FlowRecord {
   double vertices = 0;            ///< of the mesh
   double meshes = 1;              ///< made so far, the first one included
   double iterations = 0;          ///< corrections of the step
+  double cfl = kAbsent;           ///< largest |v - w| dt/h, h the shortest edge of a triangle [-]; absent of a new mesh
   // Of a saturated bed, means over the fluid's steps since the record before; pressures are those above the hydrostatic one.
   double tip_force_x = kAbsent, tip_force_y = kAbsent;        ///< of the fluid on the tip, pores and grains alike [N/m]
   double sleeve_force_x = kAbsent, sleeve_force_y = kAbsent;  ///< of the fluid on the sleeve [N/m]
@@ -75,6 +76,9 @@ void columns(auto&& visit, base::SameAs<FlowRecord> auto& r) {
   visit("vertices", "-", "vertices of the mesh", r.vertices);
   visit("meshes", "-", "meshes made so far, the first one included", r.meshes);
   visit("iterations", "-", "corrections of the step", r.iterations);
+  visit("cfl", "-",
+        "largest speed of the water past its mesh, times dt over its triangle's shortest edge; of a mesh that has moved",
+        r.cfl);
   visit("tip_force_x", "N/m", "horizontal force of the fluid on the tip, saturated bed", r.tip_force_x);
   visit("tip_force_y", "N/m", "vertical force of the fluid on the tip, without the hydrostatic one, positive up",
         r.tip_force_y);

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "solver/grains/fields_on_grid.h"
 #include "solver/pile/pile.h"
 #include "solver/simulation/water_metrics.h"
 
@@ -128,6 +127,13 @@ void ForceWindow::add(const Simulation& sim) {
       sim.contacts);
 }
 
+std::vector<grains::ContactForce> ForceWindow::forces() const {
+  std::vector<grains::ContactForce> forces;
+  for (const auto& [who, s] : sum_)
+    forces.push_back({who.first, who.second, s.x, s.y, s.nx, s.ny, s.normal / time_, s.tangential / time_});
+  return forces;
+}
+
 Frame ForceWindow::frame(const Simulation& sim, double spacing, double height) const {
   Frame frame;
   frame.time = sim.clock.time();
@@ -135,15 +141,14 @@ Frame ForceWindow::frame(const Simulation& sim, double spacing, double height) c
   frame.asked = asked_;
   add_grains(sim, frame);
 
-  std::vector<grains::ContactForce> forces;
+  const std::vector<grains::ContactForce> means = forces();
   std::vector<std::int64_t> bodies;
   std::vector<double> position, normal, force;
-  for (const auto& [who, s] : sum_) {
-    forces.push_back({who.first, who.second, s.x, s.y, s.nx, s.ny, s.normal / time_, s.tangential / time_});
-    bodies.insert(bodies.end(), {sim.grains.id[who.first], who.second >= 0 ? sim.grains.id[who.second] : who.second});
-    position.insert(position.end(), {s.x, s.y});
-    normal.insert(normal.end(), {s.nx, s.ny});
-    force.insert(force.end(), {s.normal / time_, s.tangential / time_});
+  for (const grains::ContactForce& c : means) {
+    bodies.insert(bodies.end(), {sim.grains.id[c.first], c.second >= 0 ? sim.grains.id[c.second] : c.second});
+    position.insert(position.end(), {c.x, c.y});
+    normal.insert(normal.end(), {c.nx, c.ny});
+    force.insert(force.end(), {c.normal, c.tangential});
   }
   frame.contacts = {{{"contacts/grain", "-", "ids of both; -1 left, -2 right wall, -3 base, -4 tip, -5 sleeve", 2, Entity::contact}, std::move(bodies)},
                     {{"contacts/position", "m", "point of contact", 2, Entity::contact}, std::move(position)},
@@ -156,7 +161,7 @@ Frame ForceWindow::frame(const Simulation& sim, double spacing, double height) c
   frame.grid = {grid.x0, grid.y0, grid.spacing, grid.nx, grid.ny};
   const std::span<const grains::Disc> discs(sim.grains.disc.data(), sim.grains.count());
   std::vector<double> stress, values, direction;
-  for (const grains::Stress& s : grains::stress_on_grid(forces, discs, sim.box, grid)) {
+  for (const grains::Stress& s : grains::stress_on_grid(means, discs, sim.box, grid)) {
     const grains::PrincipalStress p = principal(s);
     stress.insert(stress.end(), {s.xx, s.yy, s.xy});
     values.insert(values.end(), {p.major, p.minor});
@@ -167,6 +172,23 @@ Frame ForceWindow::frame(const Simulation& sim, double spacing, double height) c
                  {{"cells/principal_stress", "Pa", "major and minor principal stress", 2, Entity::cell}, std::move(values)},
                  {{"cells/principal_direction", "rad", "angle of the major principal stress from x", 1, Entity::cell}, std::move(direction)}};
   return frame;
+}
+
+PlacesBefore places_of(const Simulation& sim) {
+  PlacesBefore places{sim.pile->body.position.y, {}};
+  for (std::size_t i = 0; i < sim.grains.count(); ++i)
+    places.grain.push_back({sim.grains.disc[i].x, sim.grains.disc[i].y});
+  return places;
+}
+
+TipMeasures measures_of(const Simulation& sim, const ForceWindow& window, const PlacesBefore* before) {
+  const std::span<const grains::Disc> discs(sim.grains.disc.data(), sim.grains.count());
+  const TipPlace tip{sim.pile->body.position, sim.pile->spec.radius};
+  TipMeasures measures;
+  measures.asked = window.asked();
+  if (before) measure_motion(measures, discs, *before, tip);
+  measure_forces(measures, window.forces(), discs, sim.box, tip);
+  return measures;
 }
 
 std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<const FlowRecord> flow_records,
@@ -227,11 +249,9 @@ std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<con
     add("dissipation", records.back().dissipation, "J/m", "energy taken out by the contacts, summed per contact");
     add("energy_error", energy_error(records, flow_records), "-", "energy that the balance lacks, share of the pile's work");
   }
-  for (int k = 0; k * kBin < kTo - 1e-9; ++k) {
-    const int centimetres = static_cast<int>(std::lround(100 * k * kBin));
-    const std::string digits = std::to_string(100 + centimetres % 100).substr(1);
-    add("tip_resistance_bin_" + std::to_string(centimetres / 100) + "." + digits, mean_over_depth(records, k * kBin, (k + 1) * kBin, tip), "Pa", "mean q_c over a depth bin of 0.05 m from this depth");
-  }
+  for (int k = 0; k * kBin < kTo - 1e-9; ++k)
+    add("tip_resistance_bin_" + depth_text(k * kBin), mean_over_depth(records, k * kBin, (k + 1) * kBin, tip), "Pa",
+        "mean q_c over a depth bin of 0.05 m from this depth");
   return metrics;
 }
 

@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "solver/grains/fields_on_grid.h"
 #include "solver/simulation/frame.h"
 #include "solver/simulation/record.h"
 #include "solver/simulation/run.h"
 #include "solver/simulation/simulation.h"
 #include "solver/simulation/step.h"
+#include "solver/simulation/tip_measures.h"
 
 namespace seapile::simulation {
 
@@ -29,8 +31,11 @@ class ForceWindow {
   explicit ForceWindow(double asked_depth) : asked_(asked_depth) {}
   /// Adds the impulses of the last step, which kept them.
   void add(const Simulation& simulation);
+  double asked() const { return asked_; }
   /// The frame at the window's end.
   Frame frame(const Simulation& simulation, double spacing, double height) const;
+  /// The means so far, by rising (first, second).
+  std::vector<grains::ContactForce> forces() const;
 
  private:
   struct Sum {
@@ -41,6 +46,12 @@ class ForceWindow {
   double time_ = 0;  // [s]
   std::map<std::pair<std::int32_t, std::int32_t>, Sum> sum_;
 };
+
+/// Where grains and tip are now, for a frame to compare with.
+PlacesBefore places_of(const Simulation& simulation);
+
+/// What the frame at the end of `window` says of the grains under the tip. `before`: null when nothing is known of it.
+TipMeasures measures_of(const Simulation& simulation, const ForceWindow& window, const PlacesBefore* before);
 
 /// Headline, fluctuation, depth bins and extremes of a drive's records (docs/formulation.md 3). `flow_records`: of the
 /// fluid, as many; empty when the scene is dry.

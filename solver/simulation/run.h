@@ -84,7 +84,8 @@ struct RunHooks {
   std::function<void(const Progress&)> progress;
   /// Asked after each record: true seals a checkpoint now.
   std::function<bool()> checkpoint_due;
-  /// The state to be sealed, from snapshot(). Writing it changes no bit of what follows.
+  /// What is to be sealed: the state, from snapshot(), and what frames have measured (simulation/tip_measures.h). Writing
+  /// it changes no bit of what follows.
   std::function<void(const std::vector<Array>&)> checkpoint;
   /// Asked after each record: true stops the run, which is then `stopped` and resumable from a last checkpoint.
   std::function<bool()> stop;
@@ -98,7 +99,8 @@ struct RunResult {
   double time = 0;     ///< reached [s]
   double depth = 0;    ///< reached [m]
   std::uint64_t state_hash = 0;
-  std::vector<Metric> metrics;  ///< headline q_c, fluctuation, depth bins, work, largest overlap, steps, rebuilds, ...
+  std::vector<Metric> metrics;  ///< headline q_c, fluctuation, depth bins, work, largest overlap, measures of the
+                                ///< frames, steps, rebuilds, ...
   std::vector<ProfileEntry> profile;
 };
 
@@ -108,7 +110,7 @@ struct RecordsSoFar {
   std::vector<FlowRecord> flow_records;
 };
 
-/// Drives the pile of `scene` into `bed`. `resume_from`: a checkpoint's state, or empty to start. The records and frames
+/// Drives the pile of `scene` into `bed`. `resume_from`: what a checkpoint sealed, or empty to start. The records and frames
 /// handed out after a resume are those after the checkpoint, bit for bit. `so_far`: the records before the checkpoint
 /// (the metrics need them).
 RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed, const Execution& execution,

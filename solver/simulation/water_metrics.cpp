@@ -74,6 +74,9 @@ std::vector<Metric> water_metrics(std::span<const Record> records, std::span<con
   add("element_ratio_min", smallest(flow, &FlowRecord::element_ratio), "-",
       "shortest edge of the mesh over the largest diameter of a grain");
   add("lowest_shape", smallest(flow, &FlowRecord::lowest_shape), "-", "smallest shape quality at a record");
+  add("cfl_max", largest(flow, &FlowRecord::cfl), "-", "largest |v - w| dt/h at a record, h a triangle's shortest edge");
+  add("vertices_min", smallest(flow, &FlowRecord::vertices), "-", "fewest vertices of the mesh at a record");
+  add("vertices_max", largest(flow, &FlowRecord::vertices), "-", "most vertices of the mesh at a record");
   if (!flow.empty()) {
     add("meshes", flow.back().meshes, "-", "meshes made, the first one included");
     add("vertices", flow.back().vertices, "-", "vertices of the last mesh");

@@ -247,7 +247,7 @@ std::vector<Record> records_with(F&& resistance) {
 // Design README: the headline is the mean over 0.2-1.2 m, the fluctuation the standard deviation of what is left of q_c
 // when its straight line is taken away, bins are of 0.05 m.
 TEST(DriveMetrics, OfAStraightLineAreItsMeanSlopeAndNoFluctuation) {
-  const auto metrics = drive_metrics(records_with([](double d) { return 1e4 + 5e4 * d; }), {});
+  const auto metrics = drive_metrics(records_with([](double d) { return 1e4 + 5e4 * d; }), {}, {});
   EXPECT_NEAR(support::metric(metrics, "tip_resistance_mean"), 1e4 + 5e4 * 0.7, 1);
   EXPECT_NEAR(support::metric(metrics, "tip_resistance_slope"), 5e4, 1e-6 * 5e4);
   EXPECT_NEAR(support::metric(metrics, "tip_resistance_fluctuation"), 0, 1e-6);
@@ -257,7 +257,7 @@ TEST(DriveMetrics, OfAStraightLineAreItsMeanSlopeAndNoFluctuation) {
 
 TEST(DriveMetrics, FluctuationIsThatAroundTheLine) {
   int k = 0;
-  const auto metrics = drive_metrics(records_with([&](double d) { return 5e4 * d + (k++ % 2 ? 300 : -300); }), {});
+  const auto metrics = drive_metrics(records_with([&](double d) { return 5e4 * d + (k++ % 2 ? 300 : -300); }), {}, {});
   EXPECT_NEAR(support::metric(metrics, "tip_resistance_fluctuation"), 300, 2);
 }
 
@@ -266,18 +266,18 @@ TEST(DriveMetrics, RecordsWeighByTheirTravel) {
   std::vector<Record> records = records_with([](double d) { return d < 0.7 ? 1.0 : 3.0; });
   for (Record& r : records)
     if (r.depth >= 0.7) r.speed /= 10, r.span *= 10;
-  EXPECT_NEAR(support::metric(drive_metrics(records, {}), "tip_resistance_mean"), 2, 0.02);
+  EXPECT_NEAR(support::metric(drive_metrics(records, {}, {}), "tip_resistance_mean"), 2, 0.02);
 }
 
 TEST(DriveMetrics, WhatWasNotReachedIsNotReported) {
   std::vector<Record> records = records_with([](double) { return 1.0; });
   records.resize(20);  // To 0.075 m.
-  const auto metrics = drive_metrics(records, {});
+  const auto metrics = drive_metrics(records, {}, {});
   for (const Metric& m : metrics) EXPECT_TRUE(std::isfinite(m.value)) << m.name;
   EXPECT_TRUE(std::isnan(support::metric(metrics, "tip_resistance_mean")));
   EXPECT_TRUE(std::isnan(support::metric(metrics, "tip_resistance_bin_0.30")));
   EXPECT_EQ(support::metric(metrics, "tip_resistance_bin_0.00"), 1);
-  EXPECT_TRUE(drive_metrics({}, {}).size() < records_with([](double) { return 1.0; }).size());
+  EXPECT_TRUE(drive_metrics({}, {}, {}).size() < records_with([](double) { return 1.0; }).size());
 }
 
 }  // namespace

@@ -89,6 +89,25 @@ TEST(SaturatedRun, KeepsTheVolumeOfTheMixtureThroughAPenetrationWithARemesh) {
   for (const FlowRecord& r : all.flow_records) EXPECT_NEAR(r.immersed, 1, 1e-5);
 }
 
+// The water past which the pile goes at 0.4 m/s, in steps of 1 ms, on edges of at most 9 cm.
+TEST(SaturatedRun, SaysHowFarItsWaterGoesInAStepAndHowItsMeshChanges) {
+  const Told all = told(wet());
+  double most = 0, fewest = 1e9;
+  std::size_t absent = 0;
+  for (const FlowRecord& r : all.flow_records) {
+    fewest = std::min(fewest, r.vertices);
+    if (std::isnan(r.cfl)) ++absent;
+    else most = std::max(most, r.cfl);
+  }
+  EXPECT_EQ(metric(all.result, "cfl_max"), most);
+  EXPECT_GT(most, 0.4 * 1e-3 / 0.09);
+  EXPECT_LT(most, 1);
+  EXPECT_LE(absent, 2 * (metric(all.result, "meshes") - 1)) << "only where a mesh is new";
+  EXPECT_EQ(metric(all.result, "vertices_min"), fewest);
+  EXPECT_GE(metric(all.result, "vertices_max"), fewest);
+  EXPECT_TRUE(std::isfinite(metric(all.result, "stress_under_tip_0.05")));
+}
+
 TEST(SaturatedRun, HandsOutBothPhasesTogether) {
   const Told all = told(wet());
   ASSERT_EQ(all.records.size(), all.flow_records.size());
