@@ -10,8 +10,6 @@ namespace {
 
 using base::Vec2;
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// The part [from, to] of an edge a + t (b - a) that lies in the disc; none when from >= to.
 struct Chord {
   double from = 1, to = 0;

@@ -10,6 +10,10 @@
 
 namespace seapile::coupling {
 
+/// Twice the area of the triangle 0, a, b. Turned the other way it is the same number with the other sign, bit for bit:
+/// of two triangles at an edge one holds a place, or both do, when it is on the edge.
+inline double cross(base::Vec2 a, base::Vec2 b) { return a.x * b.y - a.y * b.x; }
+
 struct Moments {
   double area = 0;     ///< [m2]
   base::Vec2 first{};  ///< integral of the place relative to the disc's centre [m3]
