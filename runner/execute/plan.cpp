@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "runner/store/label_text.h"
+
 namespace seapile::execute {
 namespace {
 
@@ -219,12 +221,7 @@ std::string short_id(const std::string& case_id) { return case_id.substr(0, 10);
 
 std::string label_line(const std::vector<std::pair<std::string, std::string>>& labels) {
   std::vector<std::string> words;
-  for (const auto& [path, value] : labels) {
-    // Of a part its members stand there: "density=1300 kg/m3".
-    const std::size_t end = value.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
-    const bool is_part = end != std::string::npos && end > 0 && value[end] == '=';
-    words.push_back(fmt::format("{}{}{}", path, is_part ? "." : "=", value));
-  }
+  for (const auto& [path, value] : labels) words.push_back(store::label_text(path, value));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "runner/store/label_text.h"
+
 namespace seapile::present {
 namespace {
 
@@ -166,7 +168,7 @@ std::vector<Comparison> of_kind(const std::vector<Comparison>& comparisons, Agai
 std::string failure(const Comparison& comparison, const Judgement& judgement) {
   const Shown shown(comparison, judgement);
   std::string line = "FAILED  " + comparison.metric;
-  for (const auto& [path, value] : comparison.labels) line += fmt::format(", {}={}", path, value);
+  for (const auto& [path, value] : comparison.labels) line += ", " + store::label_text(path, value);
   if (comparison.against == Against::bounds) {
     if (std::isnan(judgement.mean.mean)) return line + ": is no number";
     const bool above = judgement.difference > 0;

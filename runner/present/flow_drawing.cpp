@@ -20,6 +20,8 @@ constexpr double kSide = 14, kHeading = 28, kPanelTitle = 22, kName = 18, kRemar
 constexpr double kLegend = 78, kLegendNames = 36, kShortestBar = 56, kTallestBar = 240;
 constexpr double kLeastLegend = kLegendNames + kShortestBar + 14;
 constexpr double kLeastWidth = 520;  ///< room for the heading and its key
+constexpr double kLeastPanel = 165;  ///< room for a title
+constexpr double kLong = 1.5;        ///< of a panel, its width over its height, from which on they stand in one column
 constexpr double kSample = 22, kRemarkSize = 10.5;
 
 /// What a figure of jets, of basins or of saturated beds says of its lengths and speeds.
@@ -121,6 +123,12 @@ void draw_panel(cairo_t* context, const FlowFigure& figure, const FlowPanel& pan
   cairo_restore(context);
 }
 
+/// How many panels stand side by side: one of what is longer than high.
+std::size_t columns_of(std::size_t panels, double width, double height) {
+  if (width > kLong * height) return 1;
+  return panels == 4 ? 2 : std::min<std::size_t>(panels, 3);
+}
+
 }  // namespace
 
 std::string picture_of(const FlowFigure& figure, PictureFormat format) {
@@ -136,10 +144,14 @@ std::string picture_of(const FlowFigure& figure, PictureFormat format) {
   const bool has_legend = figure.full > figure.low;
   const Coloured colours = coloured(figure);
   const double left = kSide + kName + numbers, room = has_legend ? kGap + kLegend : 0;
-  const double width = std::max(left + widest * scale + room + kSide, kLeastWidth);
+  const std::size_t columns = columns_of(figure.panels.size(), widest, tallest);
+  const double across = std::max(widest * scale, kLeastPanel) + kGap + numbers;  ///< from column to column
+  const double width =
+      std::max(left + across * static_cast<double>(columns) - kGap - numbers + room + kSide, kLeastWidth);
   const std::vector<std::string> lines = remarks(figure);
   const double each = kPanelTitle + std::max(tallest * scale + kBottomAxis, has_legend ? kLeastLegend : 0);
-  const double height = kSide + kHeading + each * static_cast<double>(figure.panels.size()) +
+  const double height = kSide + kHeading +
+                        each * std::ceil(static_cast<double>(figure.panels.size()) / static_cast<double>(columns)) +
                         kRemark * static_cast<double>(lines.size()) + kSide;
 
   Canvas canvas(format, width, height);
@@ -148,22 +160,27 @@ std::string picture_of(const FlowFigure& figure, PictureFormat format) {
   write(context, kSide, kSide + 14, heading(figure.kind), {15, Align::left, true});
   draw_key(context, figure, width - kSide, kSide + 14);
   double top = kSide + kHeading + kPanelTitle;
-  for (const FlowPanel& panel : figure.panels) {
-    const Mapping map{panel.view, left, top, scale};
+  for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+    const FlowPanel& panel = figure.panels[k];
+    const std::size_t column = k % columns;
+    const bool first = column == 0, last = column + 1 == columns;
+    if (k > 0 && first) top += each;
+    const Mapping map{panel.view, left + static_cast<double>(column) * across, top, scale};
     draw_panel(context, figure, panel, map);
-    draw_axes(context, map, steps, words_of(figure).axes, numbers + 5);
-    write_within(context, left, top - 7, width - kSide - left, panel.title, {12, Align::left, true});
+    draw_axes(context, map, steps, words_of(figure).axes, first ? numbers + 5 : 0);
+    write_within(context, map.left, top - 7, last ? width - kSide - map.left : across - kGap, panel.title,
+                 {12, Align::left, true});
     description += fmt::format(" {}.", panel.title);
-    if (has_legend) {
+    // One for all of them; in a single column beside each, for they reach far down.
+    if (has_legend && last && (columns == 1 || k < columns)) {
       const double x = map.right() + kGap;
       write(context, x, top + 9, colours.name, {11});
       write(context, x, top + 23, fmt::format("[{}]", colours.unit), {11});
       draw_bar(context, x, top + kLegendNames, std::clamp(tallest * scale - kLegendNames, kShortestBar, kTallestBar),
                figure.low * colours.scale, figure.full * colours.scale, false);
     }
-    top += each;
   }
-  double y = top - kPanelTitle + 14;
+  double y = top + each - kPanelTitle + 14;
   for (const std::string& line : lines) {
     write_within(context, kSide, y, width - 2 * kSide, line, {kRemarkSize, Align::left, false, 0.35});
     description += " " + line;

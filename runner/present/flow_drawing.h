@@ -1,5 +1,5 @@
-// A figure of the water as a file: panels one below the other, for water is longer than high, with axes, a legend, and
-// a line that says what is seen.
+// A figure of the water as a file: panels one below the other, or side by side where they are not much longer than
+// high, with axes, a legend, and a line that says what is seen.
 #pragma once
 
 #include <string>

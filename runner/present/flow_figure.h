@@ -35,10 +35,6 @@ struct FlowOfRun {
   std::optional<PileInBed> pile = {};  ///< of a saturated bed
 };
 
-struct DrawnEdge {
-  base::Vec2 from, to;
-};
-
 struct DrawnTriangle {
   std::array<base::Vec2, 3> corner;
   std::array<double, 3> value;  ///< |u|, or what else the colours stand for, at the corners; linear between them

@@ -14,7 +14,7 @@ namespace {
 
 // In units of the canvas.
 constexpr double kWidest = 640, kTallest = 480;  ///< a panel
-constexpr double kSide = 14, kHeading = 26, kPanelTitle = 22, kName = 18, kRemark = 22, kGap = 18;
+constexpr double kSide = 14, kHeading = 26, kPanelTitle = 22, kName = 18, kRemark = 22, kMoreRemark = 16, kGap = 18;
 constexpr double kLeastLegend = 170;                    ///< height
 constexpr double kLeastPanel = 165, kLeastWidth = 520;  ///< room for a title, for the remark
 
@@ -22,6 +22,8 @@ const AxisNames kNames = {"x [m]", "height above the base y [m]", "y [m]"};
 
 const char* heading(FigureKind kind) {
   switch (kind) {
+    case FigureKind::initial:
+      return "Initial configuration";
     case FigureKind::bed:
       return "Grains by their initial layer";
     case FigureKind::forces:
@@ -34,19 +36,24 @@ const char* heading(FigureKind kind) {
   return "";
 }
 
+GrainLook look_of(FigureKind kind) {
+  if (kind == FigureKind::initial) return GrainLook::filled;
+  if (kind == FigureKind::bed) return GrainLook::layered;
+  return kind == FigureKind::forces ? GrainLook::outlined : GrainLook::shaded;
+}
+
 std::string title_of(const FramePanel& panel) { return fmt::format("{}, d = {:.3f} m", panel.title, panel.depth); }
 
 void draw_panel(cairo_t* context, const FrameFigure& figure, const FramePanel& panel, const Mapping& map) {
   cairo_save(context);
   cairo_rectangle(context, map.left, map.top, map.right() - map.left, map.bottom() - map.top);
   cairo_clip(context);
-  draw_grains(context, map, panel.grains,
-              figure.kind == FigureKind::bed      ? GrainLook::layered
-              : figure.kind == FigureKind::forces ? GrainLook::outlined
-                                                  : GrainLook::shaded);
+  draw_water(context, map, panel.box, panel.water);
+  draw_grains(context, map, panel.grains, look_of(figure.kind));
   draw_stresses(context, map, panel.stresses, figure.scale.full);
   draw_forces(context, map, panel.forces);
   draw_surface(context, map, panel.box, panel.surface);
+  draw_water_surface(context, map, panel.water);  // Under the pile, behind which a frame closes it.
   draw_pile(context, map, panel.pile);
   draw_box(context, map, panel.box);
   draw_velocities(context, map, panel.velocities);
@@ -72,8 +79,10 @@ std::string picture_of(const FrameFigure& figure, PictureFormat format) {
   double width = 2 * kSide + kName - kGap + (legend > 0 ? kGap + legend : 0);
   for (const FramePanel& panel : figure.panels) width += numbers + room(panel) + kGap;
   width = std::max(width, kLeastWidth);
+  const std::vector<std::string> lines = remarks(figure);
+  const double below = kRemark + kMoreRemark * static_cast<double>(lines.size() - 1);
 
-  Canvas canvas(format, width, top + tall + kBottomAxis + kRemark + kSide);
+  Canvas canvas(format, width, top + tall + kBottomAxis + below + kSide);
   cairo_t* context = canvas.context();
   std::string description = fmt::format("{}.", heading(figure.kind));
   write(context, kSide, kSide + 14, heading(figure.kind), {15, Align::left, true});
@@ -88,10 +97,13 @@ std::string picture_of(const FrameFigure& figure, PictureFormat format) {
     left += room(panel) + kGap;
   }
   if (legend > 0) draw_legend(context, figure, left, top, tall, scale);
-  const std::string line = remark(figure);
-  write_within(context, kSide, top + tall + kBottomAxis + 14, width - 2 * kSide, line,
-               {10.5, Align::left, false, 0.35});
-  return canvas.finish(description + " " + line);
+  double y = top + tall + kBottomAxis + 14;
+  for (const std::string& line : lines) {
+    write_within(context, kSide, y, width - 2 * kSide, line, {10.5, Align::left, false, 0.35});
+    description += " " + line;
+    y += kMoreRemark;
+  }
+  return canvas.finish(description);
 }
 
 }  // namespace seapile::present

@@ -8,6 +8,7 @@
 
 #include "runner/present/arrays.h"
 #include "runner/present/axis.h"
+#include "runner/present/flow_mesh.h"
 #include "runner/present/pile_outline.h"
 #include "runner/store/store_error.h"
 #include "solver/pile/pile.h"
@@ -174,15 +175,43 @@ void add_velocities(const std::vector<FrameOfRun>& runs, FrameFigure& figure) {
   }
 }
 
+/// The free surface of the fluid, edge by edge.
+std::vector<DrawnEdge> water_of(const FrameOfRun& run) {
+  if (!run.fluid || run.fluid->surface.empty()) return {};
+  const FlowMesh mesh(*run.fluid);
+  const auto& row = values<std::int64_t>(run.fluid->surface, "surface/vertex");
+  std::vector<DrawnEdge> edges;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) edges.push_back({mesh.at(row[i]), mesh.at(row[i + 1])});
+  return edges;
+}
+
+std::string sizes_of(const FrameOfRun& run) {
+  const scene::DomainSpec& domain = run.scene.bed.domain;
+  const auto& radius = values<double>(run.frame.grains, "grains/radius");
+  std::string text = fmt::format("Box {:g} m by {:g} m; bed {:.2f} m high", domain.width, domain.height, run.surface);
+  if (!radius.empty()) {
+    const auto [least, most] = std::ranges::minmax(radius);
+    text += fmt::format(", {} grains of radii {:.3g} to {:.3g} mm", radius.size(), 1e3 * least, 1e3 * most);
+  }
+  text += fmt::format("; pile {:g} m wide", 2 * pile_of(run).radius);
+  if (!run.fluid) return text + ".";
+  const FlowMesh mesh(*run.fluid);
+  if (run.scene.fluid) text += fmt::format("; fluid {:g} m deep", run.scene.fluid->depth);
+  return text + fmt::format(", its mesh {} vertices and {} triangles.", mesh.vertices(), mesh.triangles());
+}
+
+bool is_whole(FigureKind kind) { return kind == FigureKind::bed || kind == FigureKind::initial; }
+
 }  // namespace
 
 View default_view(FigureKind kind, const FrameOfRun& run) {
   const View box = box_of(run);
-  if (kind == FigureKind::bed) {
+  if (is_whole(kind)) {
     const auto& position = values<double>(run.frame.grains, "grains/position");
     const auto& radius = values<double>(run.frame.grains, "grains/radius");
     double top = run.surface;
     for (std::size_t i = 0; i < radius.size(); ++i) top = std::max(top, vec2(position, i).y + radius[i]);
+    for (const DrawnEdge& edge : water_of(run)) top = std::max({top, edge.from.y, edge.to.y});
     const double margin = kMargin * box.width();
     return {box.left - margin, box.right + margin, box.bottom - margin, top + 5 * margin};
   }
@@ -203,9 +232,9 @@ FrameFigure frame_figure(FigureKind kind, const std::vector<FrameOfRun>& runs, c
     surface = std::max(surface, run.surface);
   }
   for (const FrameOfRun& run : runs) {
-    FramePanel panel{run.title, run.frame.depth, {}, box_of(run), run.surface, {}, 0, {}, {}, {}, {}};
+    FramePanel panel{run.title, run.frame.depth, {}, box_of(run), run.surface, {}, 0, {}, {}, {}, {}, {}};
     panel.pile_speed = pile::largest_speed(pile_of(run).driving);
-    panel.view = view ? *view : kind == FigureKind::bed ? whole : default_view(kind, run);
+    panel.view = view ? *view : is_whole(kind) ? whole : default_view(kind, run);
     if (!meet(panel.view, panel.box)) {
       throw std::invalid_argument(
           fmt::format("the window shows nothing of the box, which is x from {:g} to {:g} m and "
@@ -213,6 +242,10 @@ FrameFigure frame_figure(FigureKind kind, const std::vector<FrameOfRun>& runs, c
                       panel.box.left, panel.box.right, panel.box.top));
     }
     panel.pile = pile_outline(pile_of(run), run.surface - run.frame.depth, panel.view.top);
+    if (kind == FigureKind::initial) {
+      panel.water = water_of(run);
+      panel.sizes = sizes_of(run);
+    }
     figure.panels.push_back(std::move(panel));
   }
 

@@ -8,11 +8,13 @@
 
 #include "solver/base/vec2.h"
 #include "solver/scene/spec.h"
+#include "solver/simulation/flow_frame.h"
 #include "solver/simulation/frame.h"
 
 namespace seapile::present {
 
 enum class FigureKind {
+  initial,   ///< grains, pile and fluid, and how large they are
   bed,       ///< grains in layers by their height before the drive
   forces,    ///< a line per contact, as wide as its normal force is large
   stress,    ///< an ellipse per cell, its semi-axes the principal stresses
@@ -32,6 +34,11 @@ struct FrameOfRun {
   scene::SceneSpec scene;  ///< with a pile
   double surface = 0;      ///< height of the initial bed surface above the base [m]
   simulation::Frame frame;
+  std::optional<simulation::FlowFrame> fluid = {};  ///< of the same time, for `initial`
+};
+
+struct DrawnEdge {
+  base::Vec2 from, to;
 };
 
 struct DrawnGrain {
@@ -72,6 +79,8 @@ struct FramePanel {
   std::vector<DrawnForce> forces;
   std::vector<DrawnStress> stresses;
   std::vector<DrawnVelocity> velocities;
+  std::vector<DrawnEdge> water;  ///< the free surface
+  std::string sizes = {};        ///< initial: of the box, the bed, the pile, the fluid and its mesh, in a sentence
 };
 
 /// One for all panels of a figure.
@@ -89,13 +98,14 @@ struct FrameFigure {
 
 inline constexpr double kTipViewEdge = 1.2;  ///< [m]
 
-/// Where a run is looked at when nothing is said. Bed: the whole box, up to a little above the highest grain. All
-/// others: kTipViewEdge wide and high, the tip in the middle at a third of the height from the top, ending at the box.
+/// Where a run is looked at when nothing is said. Bed and initial: the whole box, up to a little above the highest
+/// grain or the fluid. All others: kTipViewEdge wide and high, the tip in the middle at a third of the height from the
+/// top, ending at the box.
 View default_view(FigureKind kind, const FrameOfRun& run);
 
-/// Puts a figure together. Every panel shows `view`, or its default one (of a bed, what holds the boxes of all runs).
-/// Throws std::invalid_argument, in a sentence, when there is nothing to be seen: a view beside the box, velocities
-/// beside a pile that never moves; store::StoreError when a frame lacks an array.
+/// Puts a figure together. Every panel shows `view`, or its default one (of bed and initial, what holds the boxes of
+/// all runs). Throws std::invalid_argument, in a sentence, when there is nothing to be seen: a view beside the box,
+/// velocities beside a pile that never moves; store::StoreError when a frame lacks an array.
 FrameFigure frame_figure(FigureKind kind, const std::vector<FrameOfRun>& runs, const std::optional<View>& view);
 
 }  // namespace seapile::present

@@ -89,7 +89,7 @@ void draw_velocity_legend(cairo_t* context, const FrameFigure& figure, double x,
 
 }  // namespace
 
-double legend_width(FigureKind kind) { return kind == FigureKind::bed ? 0 : 104; }
+double legend_width(FigureKind kind) { return kind == FigureKind::bed || kind == FigureKind::initial ? 0 : 104; }
 
 void draw_legend(cairo_t* context, const FrameFigure& figure, double x, double y, double height, double scale) {
   if (figure.scale.full <= 0) return;
@@ -98,26 +98,38 @@ void draw_legend(cairo_t* context, const FrameFigure& figure, double x, double y
   if (figure.kind == FigureKind::velocity) draw_velocity_legend(context, figure, x, y, height, scale);
 }
 
-std::string remark(const FrameFigure& figure) {
+std::vector<std::string> remarks(const FrameFigure& figure) {
   switch (figure.kind) {
+    case FigureKind::initial: {
+      std::vector<std::string> lines;
+      for (const FramePanel& panel : figure.panels) {
+        const bool several = figure.panels.size() > 1;
+        lines.push_back((several ? panel.title + ": " : "") + panel.sizes);
+      }
+      const bool wet = std::ranges::any_of(figure.panels, [](const FramePanel& panel) { return !panel.water.empty(); });
+      lines.push_back(std::string("Dashed: the bed's surface.") +
+                      (wet ? " Blue: the fluid and its free surface." : ""));
+      return lines;
+    }
     case FigureKind::bed:
-      return fmt::format(
+      return {fmt::format(
           "Tones change every {:g} m of the height at which a grain lay before the drive. Dashed: the bed's "
           "surface then.",
-          figure.scale.layer);
+          figure.scale.layer)};
     case FigureKind::forces:
-      return "A line per contact, as wide as its normal force is large; between centres, or to the point of contact.";
+      return {"A line per contact, as wide as its normal force is large; between centres, or to the point of contact."};
     case FigureKind::stress:
-      return "An ellipse per cell: semi-axes as long as the principal stresses, the longer one along the major stress.";
+      return {
+          "An ellipse per cell: semi-axes as long as the principal stresses, the longer one along the major stress."};
     case FigureKind::velocity: {
       std::vector<std::string> speeds;
       for (const FramePanel& panel : figure.panels) speeds.push_back(fmt::format("{:g} m/s", panel.pile_speed));
       if (std::ranges::count(speeds, speeds.front()) == std::ssize(speeds)) speeds.resize(1);
-      return fmt::format("An arrow per grain, from its centre. Largest speed of the pile: {}.",
-                         fmt::join(speeds, "; "));
+      return {
+          fmt::format("An arrow per grain, from its centre. Largest speed of the pile: {}.", fmt::join(speeds, "; "))};
     }
   }
-  return "";
+  return {};
 }
 
 }  // namespace seapile::present

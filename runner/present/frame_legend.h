@@ -4,6 +4,7 @@
 #include <cairo.h>
 
 #include <string>
+#include <vector>
 
 #include "runner/present/frame_figure.h"
 
@@ -15,7 +16,7 @@ double legend_width(FigureKind kind);
 /// Draws it downwards from (x, y), not higher than `height`; `scale` is the panels' units per metre.
 void draw_legend(cairo_t* context, const FrameFigure& figure, double x, double y, double height, double scale);
 
-/// One line about what is seen.
-std::string remark(const FrameFigure& figure);
+/// At least one line about what is seen.
+std::vector<std::string> remarks(const FrameFigure& figure);
 
 }  // namespace seapile::present

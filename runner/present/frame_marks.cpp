@@ -13,8 +13,9 @@ using base::Vec2;
 
 constexpr double kGrid = 8;    ///< places per unit: shorter numbers in SVG files, too fine to be seen
 constexpr double kSizes = 16;  ///< diameters of dots per unit
-constexpr double kLayerTones[] = {0.76, 0.42};
-constexpr Colour kForce = {0.13, 0.13, 0.40}, kPileFill = {0.80, 0.84, 0.90}, kPileEdge = {0.16, 0.22, 0.32};
+constexpr double kLayerTones[] = {0.76, 0.42}, kFilledTone = 0.62;
+constexpr Colour kForce = {0.13, 0.13, 0.40}, kPileFill = {0.80, 0.84, 0.90}, kPileEdge = {0.16, 0.22, 0.32},
+                 kWater = {0.85, 0.93, 0.99}, kWaterSurface = {0.0, 0.45, 0.70};
 constexpr int kShades = 64;    ///< of the colour map; more are not told apart
 constexpr double kHead = 3.2;  ///< of an arrow
 constexpr double kSmallestMark = 0.25;
@@ -84,11 +85,11 @@ void draw_grains(cairo_t* context, const Mapping& map, const std::vector<DrawnGr
       others.add(map(grain.centre), diameter - 1.0);
     } else {
       const bool second = look == GrainLook::layered && grain.layer % 2 != 0;
-      (second ? others : dots).add(map(grain.centre), diameter * (look == GrainLook::layered ? 1.0 : 0.96));
+      (second ? others : dots).add(map(grain.centre), diameter * (look == GrainLook::shaded ? 0.96 : 1.0));
     }
   }
   const bool layered = look == GrainLook::layered, outlined = look == GrainLook::outlined;
-  dots.draw(context, layered ? kLayerTones[0] : outlined ? 0.80 : 0.92);
+  dots.draw(context, layered ? kLayerTones[0] : look == GrainLook::filled ? kFilledTone : outlined ? 0.80 : 0.92);
   others.draw(context, layered ? kLayerTones[1] : 1.0);
 }
 
@@ -183,6 +184,35 @@ void draw_box(cairo_t* context, const Mapping& map, const View& box) {
   cairo_line_to(context, low.x, low.y);
   cairo_line_to(context, high.x, low.y);
   cairo_line_to(context, high.x, high.y);
+  cairo_stroke(context);
+}
+
+void draw_water(cairo_t* context, const Mapping& map, const View& box, const std::vector<DrawnEdge>& surface) {
+  // One path: pieces that only touch would leave hairs.
+  for (const DrawnEdge& edge : surface) {
+    const bool forwards = edge.from.x < edge.to.x;
+    const Vec2 left = forwards ? edge.from : edge.to, right = forwards ? edge.to : edge.from;
+    bool first = true;
+    for (const Vec2 corner : {Vec2{left.x, box.bottom}, left, right, Vec2{right.x, box.bottom}}) {
+      const Vec2 p = map(corner);
+      first ? cairo_move_to(context, p.x, p.y) : cairo_line_to(context, p.x, p.y);
+      first = false;
+    }
+    cairo_close_path(context);
+  }
+  set_colour(context, kWater);
+  cairo_fill(context);
+}
+
+void draw_water_surface(cairo_t* context, const Mapping& map, const std::vector<DrawnEdge>& surface) {
+  for (const DrawnEdge& edge : surface) {
+    const Vec2 from = map(edge.from), to = map(edge.to);
+    cairo_move_to(context, rounded(from.x), rounded(from.y));
+    cairo_line_to(context, rounded(to.x), rounded(to.y));
+  }
+  set_colour(context, kWaterSurface);
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_width(context, 1.6);
   cairo_stroke(context);
 }
 

@@ -23,6 +23,7 @@ struct Mapping {
 };
 
 enum class GrainLook {
+  filled,    ///< one tone
   layered,   ///< filled, two tones in turn from layer to layer
   outlined,  ///< faint circles
   shaded,    ///< faint discs
@@ -49,6 +50,10 @@ void draw_box(cairo_t* context, const Mapping& map, const View& box);
 
 /// The initial bed surface, dashed.
 void draw_surface(cairo_t* context, const Mapping& map, const View& box, double surface);
+
+/// The fluid as a plane from the base to its free surface, pale; and the free surface itself.
+void draw_water(cairo_t* context, const Mapping& map, const View& box, const std::vector<DrawnEdge>& surface);
+void draw_water_surface(cairo_t* context, const Mapping& map, const std::vector<DrawnEdge>& surface);
 
 void set_colour(cairo_t* context, const Colour& colour);
 /// An arrow from one point of the canvas to another, with a head when it is long enough for one; added to the path.

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "runner/present/axis.h"
+#include "runner/present/flow_marks.h"
+#include "runner/present/frame_axes.h"
 #include "runner/present/frame_marks.h"
 #include "runner/present/lettering.h"
 
@@ -14,8 +16,9 @@ namespace seapile::present {
 namespace {
 
 // In units of the canvas.
-constexpr double kPlotWidth = 250, kPlotHeight = 170, kSide = 14, kHeading = 26, kTitle = 22, kRemark = 17;
-constexpr double kLeft = 44, kColumnGap = 26, kBelow = 50, kTick = 4, kKey = 9;
+constexpr double kPlotWidth = 300, kPlotHeight = 150, kTallestMesh = 320, kSide = 14, kHeading = 26, kTitle = 22,
+                 kRemark = 17;
+constexpr double kLeft = 50, kColumnGap = 46, kBelow = 50, kTick = 4, kKey = 9;
 constexpr double kLeastWidth = 560;  ///< room for what is said below
 constexpr Colour kGood = {0.23, 0.44, 0.64}, kBad = {0.84, 0.20, 0.05};
 
@@ -73,6 +76,34 @@ void draw_frame(cairo_t* context, const Plot& plot, double left, double bottom, 
   }
 }
 
+/// The mesh in its view, what is bad filled.
+void draw_mesh(cairo_t* context, const QualityPanel& panel, double left, double top, double scale, bool first) {
+  const Mapping map{panel.mesh.view, left, top, scale};
+  cairo_save(context);
+  cairo_rectangle(context, map.left, map.top, map.right() - map.left, map.bottom() - map.top);
+  cairo_clip(context);
+  draw_die(context, map, panel.mesh.die);
+  if (!panel.mesh.pile.empty()) draw_pile(context, map, panel.mesh.pile);
+  for (const auto& corners : panel.bad) {
+    for (const base::Vec2 corner : corners) {
+      const base::Vec2 p = map(corner);
+      cairo_line_to(context, p.x, p.y);
+    }
+    cairo_close_path(context);
+  }
+  set_colour(context, kBad);
+  cairo_fill(context);
+  draw_edges(context, map, panel.mesh.edges, EdgeLook::inner);
+  draw_edges(context, map, panel.mesh.boundary, EdgeLook::boundary);
+  draw_edges(context, map, panel.mesh.surface, EdgeLook::boundary);
+  cairo_restore(context);
+  const Steps steps = axis_steps(panel.mesh.view.width(), panel.mesh.view.height(), scale);
+  const AxisNames names = panel.in_metres ? AxisNames{"x [m]", "y [m]", "y [m]"} : AxisNames{"x [H]", "y [H]", "y [H]"};
+  draw_axes(context, map, steps, names, first ? kLeft - 10 : 0);
+}
+
+double mesh_scale(const View& view) { return std::min(kPlotWidth / view.width(), kTallestMesh / view.height()); }
+
 /// How many are bad, beside their colour, and the worst. Regular triangles have q = 1 and 60 degrees, so that bars are
 /// high on the right.
 void draw_legend(cairo_t* context, const Plot& plot, double left, double bottom) {
@@ -90,7 +121,11 @@ std::string picture_of(const QualityFigure& figure, PictureFormat format) {
   const std::string heading = "Quality of the triangles";
   const double columns = static_cast<double>(figure.panels.size());
   const double width = std::max(2 * kSide + kLeft + columns * kPlotWidth + (columns - 1) * kColumnGap, kLeastWidth);
-  const double height = kSide + kHeading + kTitle + 2 * (kPlotHeight + kBelow) + kRemark + kSide;
+  double tallest = 0;
+  for (const QualityPanel& panel : figure.panels)
+    tallest = std::max(tallest, panel.mesh.view.height() * mesh_scale(panel.mesh.view));
+  const double meshes = tallest + kBottomAxis + 14;
+  const double height = kSide + kHeading + kTitle + meshes + 2 * (kPlotHeight + kBelow) + kRemark + kSide;
   const double highest = top_of(figure.full);
 
   Canvas canvas(format, width, height);
@@ -100,12 +135,14 @@ std::string picture_of(const QualityFigure& figure, PictureFormat format) {
   double left = kSide + kLeft;
   for (const QualityPanel& panel : figure.panels) {
     const bool first = &panel == &figure.panels.front();
-    double bottom = kSide + kHeading + kTitle + kPlotHeight;
-    write_within(context, left, bottom - kPlotHeight - 7, kPlotWidth, panel.title, {12, Align::left, true});
+    const double top = kSide + kHeading + kTitle;
+    write_within(context, left, top - 7, kPlotWidth, panel.title, {12, Align::left, true});
+    draw_mesh(context, panel, left, top, mesh_scale(panel.mesh.view), first);
+    double bottom = top + meshes + kPlotHeight;
     const double degrees = 180 / std::numbers::pi;
     description += fmt::format(" {}: {} triangles.", panel.title, panel.triangles);
     for (const Plot& plot :
-         {Plot{panel.shape, 1, 0.5, 0.2, "shape q", fmt::format("q < 0.5: {:.3g} %", 100 * panel.below_half),
+         {Plot{panel.shape, 1, kBadShape, 0.2, "shape q", fmt::format("q < 0.5: {:.3g} %", 100 * panel.below_half),
                fmt::format("lowest {:.3f}", panel.lowest_shape)},
           Plot{panel.angle, 60, 30, 10, "smallest angle [degrees]",
                fmt::format("below 30°: {:.3g} %", 100 * panel.small_angles),
@@ -119,7 +156,8 @@ std::string picture_of(const QualityFigure& figure, PictureFormat format) {
     left += kPlotWidth + kColumnGap;
   }
   const std::string remark =
-      "q: 4√3 times the area over the sum of the squared edges, 1 for equal edges. Bins of 0.05 and of 5 degrees.";
+      "q: 4√3 times the area over the sum of the squared edges, 1 for equal edges. Red: q < 0.5. Histograms of whole "
+      "meshes.";
   write_within(context, kSide, height - kSide - 4, width - 2 * kSide, remark, {10.5, Align::left, false, 0.35});
   return canvas.finish(description + " " + remark);
 }

@@ -1,4 +1,5 @@
-// A figure of triangles' quality as a file: a column per mesh, shapes above angles, and what is bad in another colour.
+// A figure of triangles' quality as a file: a column per mesh: itself, its shapes and its angles, and what
+// is bad in another colour.
 #pragma once
 
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "runner/present/flow_mesh.h"
 #include "solver/mesh/quality.h"
@@ -39,10 +40,11 @@ mesh::TriangleMesh triangles_of(const FlowOfRun& run) {
 
 }  // namespace
 
-QualityFigure quality_figure(const std::vector<FlowOfRun>& runs) {
+QualityFigure quality_figure(const std::vector<FlowOfRun>& runs, const std::optional<View>& view) {
   QualityFigure figure;
   for (const FlowOfRun& run : runs) {
-    const mesh::Quality quality = mesh::quality_of(triangles_of(run));
+    const mesh::TriangleMesh triangles = triangles_of(run);
+    const mesh::Quality quality = mesh::quality_of(triangles);
     const mesh::QualitySummary summary = mesh::summary_of(quality);
     QualityPanel panel{title_of(run),
                        quality.shape.size(),
@@ -51,7 +53,17 @@ QualityFigure quality_figure(const std::vector<FlowOfRun>& runs) {
                        summary.lowest_shape,
                        summary.smallest_angle,
                        summary.below_half,
-                       summary.small_angles};
+                       summary.small_angles,
+                       std::move(flow_figure(FlowFigureKind::mesh, {run}, view).panels.at(0)),
+                       !run.scene.jet,
+                       {}};
+    for (std::size_t t = 0; t < triangles.triangle.size(); ++t) {
+      if (!(quality.shape[t] < kBadShape)) continue;
+      std::array<base::Vec2, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = triangles.position[static_cast<std::size_t>(triangles.triangle[t][k])];
+      panel.bad.push_back(corners);
+    }
     figure.full =
         std::max({figure.full, *std::ranges::max_element(panel.shape), *std::ranges::max_element(panel.angle)});
     figure.panels.push_back(std::move(panel));

@@ -1,7 +1,9 @@
-// How good the triangles of meshes are, as histograms: for each mesh one of the shape q and one of the smallest angle
-// (thesis figure 4.5), on scales that all of them share.
+// How good the triangles of meshes are: each mesh with its bad triangles marked, and histograms of the shape q and of
+// the smallest angle (thesis figure 4.5), on scales that all of them share.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,8 @@ namespace seapile::present {
 inline constexpr std::size_t kShapeBins = 20;  ///< of q, 0.05 each, from 0 to 1
 inline constexpr std::size_t kAngleBins = 12;  ///< of the smallest angle, 5 degrees each, from 0 to 60
 
+inline constexpr double kBadShape = 0.5;
+
 struct QualityPanel {
   std::string title;
   std::size_t triangles = 0;
@@ -21,6 +25,9 @@ struct QualityPanel {
   double smallest_angle = 0;  ///< [rad]
   double below_half = 0;      ///< share of the triangles with q < 0.5
   double small_angles = 0;    ///< share of the triangles with an angle below 30 degrees
+  FlowPanel mesh;             ///< its edges, in the view
+  bool in_metres = true;      ///< otherwise in H
+  std::vector<std::array<base::Vec2, 3>> bad;  ///< triangles with q < 0.5
 };
 
 struct QualityFigure {
@@ -28,7 +35,9 @@ struct QualityFigure {
   std::vector<QualityPanel> panels;
 };
 
-/// Throws store::StoreError when a frame lacks an array or has no triangle.
-QualityFigure quality_figure(const std::vector<FlowOfRun>& runs);
+/// The meshes are seen in `view` or as flow_figure() shows them; the histograms are always of whole meshes. Throws
+/// std::invalid_argument, in a sentence, when the view lies beside a mesh; store::StoreError when a frame lacks an
+/// array or has no triangle.
+QualityFigure quality_figure(const std::vector<FlowOfRun>& runs, const std::optional<View>& view = {});
 
 }  // namespace seapile::present

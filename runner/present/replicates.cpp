@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "runner/store/label_text.h"
+
 namespace seapile::present {
 namespace {
 
@@ -92,8 +94,7 @@ std::string legend_text(const Labels& labels) {
   std::vector<std::string> words;
   for (const auto& [path, value] : labels) {
     if (path == kSeed) continue;
-    const auto last = path.find_last_of('.');
-    words.push_back(fmt::format("{} {}", last == std::string::npos ? path : path.substr(last + 1), value));
+    words.push_back(store::short_label_text(path, value));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }

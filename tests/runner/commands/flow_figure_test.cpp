@@ -77,15 +77,16 @@ TEST_F(FlowFigureCommand, WhatDoesNotFitTheRunEndsWithTwoAndOneLineAndWritesNoth
        "is a flow: its figures are mesh, velocity, pressure, porosity and quality"},
       {{"figure", "bed", ids[0], "-o", "c.svg"},
        "is a flow: its figures are mesh, velocity, pressure, porosity and quality"},
-      {{"figure", "mesh", drive, "-o", "c.svg"}, "is a dry drive: its figures are bed, forces, stress and velocity"},
+      {{"figure", "mesh", drive, "-o", "c.svg"},
+       "is a dry drive: its figures are initial, bed, forces, stress, velocity and zone"},
       {{"figure", "velocity", ids[0], drive, "-o", "c.svg"}, "a drive and a flow"},
       {{"figure", "velocity", drive, ids[0], "-o", "c.svg"}, "a drive and a flow"},
       {{"figure", "velocity", ids[0], "--depth", "0.1", "-o", "c.svg"}, "is a flow; its last frame is drawn"},
       {{"figure", "mesh", ids[0], "--window", "7,8,0,1", "-o", "c.svg"}, "nothing of the fluid"},
       {{"figure", "mesh", ids[0], "--time", "0.1", "-o", "c.svg"}, "is a jet; its last frame is drawn"},
       {{"figure", "velocity", drive, "--time", "0.1", "-o", "c.svg"}, "is a drive; its frames are chosen by --depth"},
-      {{"figure", "quality", drive, "-o", "c.svg"}, "is a dry drive: its figures are bed, forces, stress and velocity"},
-      {{"figure", "quality", ids[0], "--window", "0,1,0,1", "-o", "c.svg"}, "quality is of whole meshes"},
+      {{"figure", "quality", drive, "-o", "c.svg"}, "is a dry drive: its figures are initial,"},
+      {{"figure", "quality", ids[0], "--window", "7,8,0,1", "-o", "c.svg"}, "nothing of the fluid"},
   };
   for (const auto& [arguments, word] : wrong) {
     const Finished finished = place->run(arguments);

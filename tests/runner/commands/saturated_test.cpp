@@ -142,15 +142,19 @@ TEST_F(SaturatedCommand, ItsGrainsAreDrawnAsThoseOfADryDriveAndBesideThem) {
   for (const char* kind : {"bed", "forces", "velocity"}) {
     const Finished both = place->run({"figure", kind, dry, saturated, "--depth", "0.2", "-o", "both.svg"});
     EXPECT_EQ(both.exit_code, 0) << kind << both.error;
+    EXPECT_THAT(content(place->folder() / "both.svg"),
+                testing::AllOf(HasSubstr("no fluid, d = 0.200 m"), HasSubstr("fluid.density=1000 kg/m3, d = 0.200 m")));
   }
 }
 
 TEST_F(SaturatedCommand, WhatDoesNotFitTheRunIsSaid) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
-      {{"figure", "mesh", dry}, "is a dry drive: its figures are bed, forces, stress and velocity"},
+      {{"figure", "mesh", dry}, "is a dry drive: its figures are initial, bed, forces, stress, velocity and zone"},
       {{"figure", "pressure", saturated, dry}, "is a dry drive"},
       {{"figure", "mesh", saturated, "--depth", "0.15"}, "has no frame within 1 mm of 0.15 m"},
       {{"figure", "mesh", saturated, "--depth", "0.1", "--time", "0"}, "one of them chooses frames"},
+      {{"figure", "initial", saturated}, "has no frame within 1 mm of 0 m; its frames are at 0.1, 0.2 m"},
+      {{"figure", "zone", saturated}, "has no frame within 1 mm of 0 m; its frames are at 0.1, 0.2 m"},
       {{"figure", "velocity", saturated, "--time", "0"}, "its frames are chosen by --depth"}};
   for (const auto& [arguments, word] : wrong) {
     const Finished finished = place->run(arguments);

@@ -54,9 +54,9 @@ TEST_F(PlanTest, ABedIsNotAskedForTheNumericsOfTheFluidAboveIt) {
 
 TEST(LabelLine, MembersOfAPartStandAtTheirPaths) {
   EXPECT_EQ(label_line({{"pile.tip", "conical(apex_angle=0.5 rad)"}, {"fluid", "null"}}),
-            "pile.tip=conical(apex_angle=0.5 rad), fluid=null");
+            "pile.tip=conical(apex_angle=0.5 rad), no fluid");
   EXPECT_EQ(label_line({{"fluid", "density=1300 kg/m3"}}), "fluid.density=1300 kg/m3");
-  EXPECT_EQ(label_line({{"fluid", "default"}}), "fluid=default");
+  EXPECT_EQ(label_line({{"fluid", "default"}}), "fluid");
 }
 
 TEST_F(PlanTest, OnAnEmptyDiskEveryCaseIsRunAndBedsComeFirstAndOnce) {

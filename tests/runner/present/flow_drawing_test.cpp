@@ -136,6 +136,28 @@ TEST(FlowPicture, APanelIsClearOfTheOneBelowIt) {
   }
 }
 
+TEST(FlowPicture, WhatIsAboutAsHighAsWideStandsSideBySideWithOneLegend) {
+  for (const FlowFigureKind kind : kKinds) {
+    const View square{0, 1, 0, 1};
+    const auto picture_with = [&](const std::vector<FlowOfRun>& runs) {
+      return picture_from_png(picture_of(flow_figure(kind, runs, square), PictureFormat::png));
+    };
+    const Picture one = picture_with({straight_jet()}), two = picture_with({straight_jet(), straight_jet()}),
+                  four = picture_with(std::vector<FlowOfRun>(4, straight_jet()));
+    EXPECT_EQ(two.height, one.height);
+    EXPECT_GT(two.width, 1.6 * one.width);
+    EXPECT_EQ(four.width, two.width) << "two rows";
+    EXPECT_GT(four.height, 1.8 * two.height);
+    if (kind == FlowFigureKind::mesh) continue;
+    // Beside the second row there is no legend.
+    double beside = 0;
+    for (int y = four.height / 2 + 60; y < four.height - 100; ++y) {
+      for (int x = four.width - 100; x < four.width; ++x) beside += four.ink(x, y);
+    }
+    EXPECT_EQ(beside, 0);
+  }
+}
+
 TEST(FlowPicture, IsTheSameForTheSameFigure) {
   for (const FlowFigureKind kind : kKinds) {
     const FlowFigure figure = flow_figure(kind, {straight_jet()}, {});

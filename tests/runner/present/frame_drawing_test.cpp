@@ -10,6 +10,7 @@
 
 #include "runner/present/frame_marks.h"
 #include "runner/present/lettering.h"
+#include "tests/runner/present/flow_of_run.h"
 #include "tests/runner/present/frame_of_run.h"
 #include "tests/support/picture.h"
 
@@ -173,6 +174,28 @@ TEST(FramePicture, EveryKindShowsWhatItIsAbout) {
     };
     EXPECT_GT(ink_with(full_run()), ink_with(bare) + 500);
   }
+}
+
+TEST(FramePicture, OfTheInitialConfigurationHasTheFluidUnderItsSurfaceAndNoneInThePile) {
+  FrameOfRun run = full_run();
+  run.fluid = small_basin().frame;  // from -1.5 m to 1.5 m, 1 m high
+  FrameFigure figure = frame_figure(FigureKind::initial, {run}, View{-2, 2, 0, 2});
+  figure.panels[0].grains.clear();
+  const auto blues = [&](const FrameFigure& drawn) {
+    const Picture picture = picture_from_png(picture_of(drawn, PictureFormat::png));
+    return std::ranges::count_if(
+        picture.pixels, [](std::uint32_t p) { return (p & 255) > 245 && (p >> 16 & 255) > 205 && (p >> 16 & 255) < 230; });
+  };
+  const double pixels = 2 * 640 / 4.0;  // per metre
+  EXPECT_NEAR(static_cast<double>(blues(figure)) / (3 * 1 * pixels * pixels), 1, 0.03);
+  const auto driven = [&](double depth) {
+    run.frame.depth = depth;
+    FrameFigure other = frame_figure(FigureKind::initial, {run}, View{-2, 2, 0, 2});
+    other.panels[0].grains.clear();
+    return blues(other);
+  };
+  EXPECT_NEAR(static_cast<double>(driven(1) - driven(1.5)) / (0.2 * 0.5 * pixels * pixels), 1, 0.1)
+      << "a pile 0.2 m wide";
 }
 
 TEST(FramePicture, ALongOrBrokenTitleStaysInItsPlace) {

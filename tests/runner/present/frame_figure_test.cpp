@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runner/store/store_error.h"
+#include "tests/runner/present/flow_of_run.h"
 #include "tests/runner/present/frame_of_run.h"
 
 namespace seapile::present {
@@ -203,6 +204,21 @@ TEST(DefaultView, OfTwoBedsIsOneForBoth) {
   EXPECT_EQ(figure.panels.at(0).view.left, figure.panels.at(1).view.left);
   EXPECT_LT(figure.panels.at(0).view.left, -3);
   EXPECT_EQ(figure.panels.at(0).box.left, -2);
+}
+
+TEST(FrameFigure, TheInitialConfigurationSaysHowLargeEverythingIs) {
+  FrameOfRun run = run_with_row(1);
+  add_grain(run, 1000, {0, 0.5}, 0.0123);
+  const FrameFigure dry = frame_figure(FigureKind::initial, {run}, {});
+  EXPECT_EQ(dry.panels.at(0).sizes,
+            "Box 4 m by 4 m; bed 2.00 m high, 38 grains of radii 12.3 to 50 mm; pile 0.2 m wide.");
+  EXPECT_THAT(dry.panels[0].water, IsEmpty());
+  EXPECT_EQ(dry.panels[0].grains.size(), 38u);
+  run.scene.fluid.emplace().depth = 3;
+  run.fluid = small_basin().frame;
+  const FrameFigure wet = frame_figure(FigureKind::initial, {run}, {});
+  EXPECT_THAT(wet.panels.at(0).sizes, HasSubstr("; fluid 3 m deep, its mesh 21 vertices and 24 triangles."));
+  EXPECT_EQ(wet.panels[0].water.size(), 6u);
 }
 
 TEST(FrameFigure, WhatCannotBeSeenIsSaid) {

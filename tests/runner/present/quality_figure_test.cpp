@@ -85,6 +85,27 @@ TEST(QualityFigure, AFrameWithoutTrianglesIsDamage) {
   EXPECT_THROW(quality_figure({run}), store::StoreError);
 }
 
+TEST(QualityFigure, MarksTheBadTrianglesWhereTheyAre) {
+  EXPECT_TRUE(panel_of(small_basin()).bad.empty());
+  // The left half stretched downwards: its triangles alone are bad, 12 of 24.
+  const QualityPanel panel = panel_of(stretched([](Vec2 p) { return Vec2{p.x < 0 ? 8 * p.x : p.x, p.y}; }));
+  EXPECT_EQ(panel.bad.size(), 12u);
+  for (const auto& corners : panel.bad) {
+    for (const Vec2 corner : corners) EXPECT_LE(corner.x, 1e-12);
+  }
+  EXPECT_EQ(panel.mesh.triangles, 24u);
+  EXPECT_GT(panel.mesh.edges.size(), 24u);
+}
+
+TEST(QualityFigure, AWindowCutsTheMeshAndNotTheHistograms) {
+  const View view{0.1, 0.4, 0.1, 0.4};
+  const QualityFigure figure = quality_figure({small_basin()}, view);
+  EXPECT_LT(figure.panels.at(0).mesh.edges.size(), 6u);
+  EXPECT_NEAR(figure.panels[0].shape[17], 1, 1e-12);
+  EXPECT_EQ(figure.panels[0].triangles, 24u);
+  EXPECT_THROW(quality_figure({small_basin()}, View{7, 8, 0, 1}), std::invalid_argument);
+}
+
 TEST(QualityPicture, StandsSideBySideAndSaysHowManyAreBad) {
   const FlowOfRun bad = stretched([](Vec2 p) { return Vec2{4 * p.x, p.y}; });
   const QualityFigure figure = quality_figure({small_basin(), bad});
@@ -94,7 +115,8 @@ TEST(QualityPicture, StandsSideBySideAndSaysHowManyAreBad) {
     EXPECT_THAT(svg, HasSubstr(text));
   const Picture two = picture_from_png(picture_of(figure, PictureFormat::png));
   const Picture four = picture_from_png(picture_of(quality_figure({bad, bad, bad, bad}), PictureFormat::png));
-  EXPECT_EQ(two.height, four.height);
+  const Picture one = picture_from_png(picture_of(quality_figure({bad}), PictureFormat::png));
+  EXPECT_EQ(one.height, four.height);
   EXPECT_GT(four.width, 1.8 * two.width);
   // What is below a limit is red, and only that.
   const auto reds = [](const Picture& picture) {
