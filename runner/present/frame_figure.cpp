@@ -185,7 +185,7 @@ std::vector<DrawnEdge> water_of(const FrameOfRun& run) {
   return edges;
 }
 
-std::string sizes_of(const FrameOfRun& run) {
+std::vector<std::string> sizes_of(const FrameOfRun& run) {
   const scene::DomainSpec& domain = run.scene.bed.domain;
   const auto& radius = values<double>(run.frame.grains, "grains/radius");
   std::string text = fmt::format("Box {:g} m by {:g} m; bed {:.2f} m high", domain.width, domain.height, run.surface);
@@ -193,11 +193,13 @@ std::string sizes_of(const FrameOfRun& run) {
     const auto [least, most] = std::ranges::minmax(radius);
     text += fmt::format(", {} grains of radii {:.3g} to {:.3g} mm", radius.size(), 1e3 * least, 1e3 * most);
   }
-  text += fmt::format("; pile {:g} m wide", 2 * pile_of(run).radius);
-  if (!run.fluid) return text + ".";
+  std::vector<std::string> sentences = {fmt::format("{}; pile {:g} m wide.", text, 2 * pile_of(run).radius)};
+  if (!run.fluid) return sentences;
   const FlowMesh mesh(*run.fluid);
-  if (run.scene.fluid) text += fmt::format("; fluid {:g} m deep", run.scene.fluid->depth);
-  return text + fmt::format(", its mesh {} vertices and {} triangles.", mesh.vertices(), mesh.triangles());
+  const std::string deep = run.scene.fluid ? fmt::format(" {:g} m deep", run.scene.fluid->depth) : "";
+  sentences.push_back(
+      fmt::format("Fluid{}; mesh of {} vertices and {} triangles.", deep, mesh.vertices(), mesh.triangles()));
+  return sentences;
 }
 
 bool is_whole(FigureKind kind) { return kind == FigureKind::bed || kind == FigureKind::initial; }

@@ -79,8 +79,8 @@ struct FramePanel {
   std::vector<DrawnForce> forces;
   std::vector<DrawnStress> stresses;
   std::vector<DrawnVelocity> velocities;
-  std::vector<DrawnEdge> water;  ///< the free surface
-  std::string sizes = {};        ///< initial: of the box, the bed, the pile, the fluid and its mesh, in a sentence
+  std::vector<DrawnEdge> water;         ///< the free surface
+  std::vector<std::string> sizes = {};  ///< initial: sentences on box, bed and pile, and on the fluid and its mesh
 };
 
 /// One for all panels of a figure.

