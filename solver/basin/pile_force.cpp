@@ -36,8 +36,8 @@ base::Vec2 vector_of(const std::array<double, 2>& force) { return {force[0], for
 void feel_pile(Basin& basin, const fluid::TimeScheme& scheme) {
   const Domain& domain = basin.domain;
   const fluid::Flow& flow = basin.flow;
-  basin.tip_force = vector_of(fluid::force_on(flow, scheme, domain.at_pile, domain.of_tip)) +
-                    on_grains_share(flow, mesh::kPileTip);
+  basin.tip_force =
+      vector_of(fluid::force_on(flow, scheme, domain.at_pile, domain.of_tip)) + on_grains_share(flow, mesh::kPileTip);
   basin.sleeve_force = vector_of(fluid::force_on(flow, scheme, domain.at_pile, domain.of_sleeve)) +
                        on_grains_share(flow, mesh::kPileSleeve);
 }

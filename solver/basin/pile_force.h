@@ -19,9 +19,10 @@ void feel_pile(Basin& basin, const fluid::TimeScheme& scheme);
 
 /// Pressures at the pile without the hydrostatic one, where a piezocone measures them [Pa].
 struct PorePressure {
-  double face = 0;               ///< u1: mean over the tip's face
-  double shoulder = 0;           ///< u2: behind the tip, mean of both sides
-  std::optional<double> sleeve;  ///< u3: on the sleeve, a pile's width above the shoulder; absent: that is out of the water
+  double face = 0;      ///< u1: mean over the tip's face
+  double shoulder = 0;  ///< u2: behind the tip, mean of both sides
+  std::optional<double>
+      sleeve;  ///< u3: on the sleeve, a pile's width above the shoulder; absent: that is out of the water
 };
 PorePressure pore_pressure(const Basin& basin);
 

@@ -30,10 +30,11 @@ void fields(auto& visit, base::SameAs<FluidMeshSpec> auto& mesh) {
 }
 
 struct FluidTimeSpec {
-  double step = 1e-3;        ///< dt of the fluid [s], a whole number of the grains' steps
-  std::int64_t order = 1;    ///< of the scheme in time, 1 or 2
-  double tolerance = 1e-8;   ///< of the flow's equations [-]
-  std::optional<double> rate = {};  ///< the fastest rate that the stabilisation reckons with [1/s]; absent: the scheme's
+  double step = 1e-3;       ///< dt of the fluid [s], a whole number of the grains' steps
+  std::int64_t order = 1;   ///< of the scheme in time, 1 or 2
+  double tolerance = 1e-8;  ///< of the flow's equations [-]
+  std::optional<double> rate =
+      {};  ///< the fastest rate that the stabilisation reckons with [1/s]; absent: the scheme's
   friend bool operator==(const FluidTimeSpec&, const FluidTimeSpec&) = default;
 };
 void fields(auto& visit, base::SameAs<FluidTimeSpec> auto& time) {
@@ -65,8 +66,7 @@ void fields(auto& visit, base::SameAs<FluidSpec> auto& fluid) {
   using base::Field;
   visit(Field{"depth", "m", base::positive(1e4), "depth of the fluid at rest, from the base of the box"}, fluid.depth);
   visit(Field{"density", "kg/m3", base::positive(1e5), "density rho"}, fluid.density);
-  visit(Field{"kinematic_viscosity", "m2/s", base::positive(1e3), "kinematic viscosity nu"},
-        fluid.kinematic_viscosity);
+  visit(Field{"kinematic_viscosity", "m2/s", base::positive(1e3), "kinematic viscosity nu"}, fluid.kinematic_viscosity);
   visit(base::part("walls", "slip or no_slip along the sides"), fluid.walls);
   visit(base::part("bottom", "slip or no_slip along the bottom"), fluid.bottom);
   visit(base::part("surface", "the free surface; null: an open top at a fixed height"), fluid.surface);

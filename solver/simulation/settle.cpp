@@ -37,7 +37,8 @@ double weight(const Simulation& sim) {
 
 }  // namespace
 
-Settled settle(Simulation& sim, double longest, std::vector<Record>& records, const std::function<void(double)>& progress) {
+Settled settle(Simulation& sim, double longest, std::vector<Record>& records,
+               const std::function<void(double)>& progress) {
   const double start = sim.clock.time(), heavy = weight(sim);
   int at_rest = 0;
   Settled settled;
@@ -45,7 +46,8 @@ Settled settle(Simulation& sim, double longest, std::vector<Record>& records, co
     const double until = sim.clock.time() + kRecordTime;
     while (sim.clock.time() < until - 0.5 * sim.clock.dt) {
       const StepReport report = step(sim);
-      if (const std::string why = objection(sim, report); !why.empty()) throw std::runtime_error("the bed does not settle: " + why);
+      if (const std::string why = objection(sim, report); !why.empty())
+        throw std::runtime_error("the bed does not settle: " + why);
       gather(sim, report);
     }
     records.push_back(take_record(sim));

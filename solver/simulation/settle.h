@@ -11,7 +11,7 @@ namespace seapile::simulation {
 
 /// How a bed rests.
 struct Settled {
-  double time = 0;  ///< [s] until then
+  double time = 0;        ///< [s] until then
   double base_error = 0;  ///< of the force on the base, by the weight [-]
   double rms_speed = 0;   ///< [m/s]
 };

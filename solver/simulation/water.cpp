@@ -135,7 +135,8 @@ class WaterStep {
     water_.basin.flow.porosity = now_.porosity.phi;
     water_.basin.past.level[0].porosity = now_.porosity.phi;
     const base::Stopwatch watch(sim_.profile, in_exchange_);
-    drag_ = coupling::drag_coefficients(water_.coupling.drag, water_.basin.flow, now_.deposit, discs_of(sim_), velocity_);
+    drag_ =
+        coupling::drag_coefficients(water_.coupling.drag, water_.basin.flow, now_.deposit, discs_of(sim_), velocity_);
     for (std::size_t i = 0; i < drag_.size(); ++i)
       drag_[i] *= sim_.grains.mass[i] / (sim_.grains.mass[i] + dt_ * drag_[i]);
   }
@@ -293,9 +294,8 @@ std::string solve_twice(Simulation& sim, WaterStep& step, const std::function<vo
 
 std::string step_water(Simulation& sim, const std::function<void(Simulation&)>& advance_grains) {
   WaterStep step(sim);
-  const std::string why = sim.water->coupling.scheme == coupling::Scheme::once
-                              ? step.solve(step.from_last_step())
-                              : solve_twice(sim, step, advance_grains);
+  const std::string why = sim.water->coupling.scheme == coupling::Scheme::once ? step.solve(step.from_last_step())
+                                                                               : solve_twice(sim, step, advance_grains);
   if (why.empty()) step.finish();
   return why;
 }
@@ -326,8 +326,8 @@ FlowRecord take_flow_record(Simulation& sim) {
   double shortest = 1e300, largest = 0;
   for (const auto& t : water.basin.flow.mesh.triangle)
     for (int k = 0; k < 3; ++k)
-      shortest = std::min(shortest, norm(water.basin.flow.mesh.position[t[k]] -
-                                         water.basin.flow.mesh.position[t[(k + 1) % 3]]));
+      shortest = std::min(shortest,
+                          norm(water.basin.flow.mesh.position[t[k]] - water.basin.flow.mesh.position[t[(k + 1) % 3]]));
   for (const grains::Disc& disc : discs_of(sim)) largest = std::max(largest, 2 * disc.radius);
   record.element_ratio = shortest / largest;
   return record;

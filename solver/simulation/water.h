@@ -20,7 +20,7 @@ struct Simulation;
 
 /// Sums over the fluid's steps since the last record.
 struct WaterGathering {
-  std::int64_t steps = 0, sleeve_steps = 0;  ///< with u3 in the water
+  std::int64_t steps = 0, sleeve_steps = 0;         ///< with u3 in the water
   base::Vec2 tip_force, sleeve_force, grain_force;  ///< [N/m]
   double face = 0, shoulder = 0, sleeve = 0;        ///< [Pa]
   double lowest_porosity = 1;                       ///< smallest [-]
@@ -37,9 +37,9 @@ struct Water {
   double buoyancy = 0;  ///< rho/rho_p g, by which the weight of immersed grains is less [m/s2]
 
   std::vector<base::Vec2> drag = {}, pressure = {};  ///< forces of the last exchange [N/m], (grains)
-  std::vector<base::Vec2> velocity = {};             ///< of the grains when the last step of the fluid began [m/s], (grains)
-  WaterGathering gathering = {};  ///< since the last record
-  WaterGathering recorded = {};   ///< what the last record was made of: one that no step of the fluid is in repeats it
+  std::vector<base::Vec2> velocity = {};  ///< of the grains when the last step of the fluid began [m/s], (grains)
+  WaterGathering gathering = {};          ///< since the last record
+  WaterGathering recorded = {};  ///< what the last record was made of: one that no step of the fluid is in repeats it
 };
 
 /// The basin that a saturated scene's water is, when the pile's tip starts at the height `tip` [m].

@@ -74,7 +74,8 @@ std::vector<Metric> water_metrics(std::span<const Record> records, std::span<con
   add("element_ratio_min", smallest(flow, &FlowRecord::element_ratio), "-",
       "shortest edge of the mesh over the largest diameter of a grain");
   add("lowest_shape", smallest(flow, &FlowRecord::lowest_shape), "-", "smallest shape quality at a record");
-  add("cfl_max", largest(flow, &FlowRecord::cfl), "-", "largest |v - w| dt/h at a record, h a triangle's shortest edge");
+  add("cfl_max", largest(flow, &FlowRecord::cfl), "-",
+      "largest |v - w| dt/h at a record, h a triangle's shortest edge");
   add("vertices_min", smallest(flow, &FlowRecord::vertices), "-", "fewest vertices of the mesh at a record");
   add("vertices_max", largest(flow, &FlowRecord::vertices), "-", "most vertices of the mesh at a record");
   if (!flow.empty()) {
@@ -84,7 +85,8 @@ std::vector<Metric> water_metrics(std::span<const Record> records, std::span<con
   }
   add("grain_steps", water.grain_steps, "-", "steps of the grains in a step of the fluid");
   add("corrections", static_cast<double>(water.basin.iterations), "-", "corrections of the flow's equations");
-  add("factorisations", static_cast<double>(water.basin.solver.refactorisations), "-", "factorisations of their matrix");
+  add("factorisations", static_cast<double>(water.basin.solver.refactorisations), "-",
+      "factorisations of their matrix");
   return metrics;
 }
 

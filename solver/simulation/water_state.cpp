@@ -32,11 +32,11 @@ bool is_of_water(const Array& array) { return array.info.name.starts_with(kPrefi
 
 std::vector<Array> snapshot(const Water& water) {
   std::vector<Array> state = snapshot(water.basin);
-  state.insert(
-      state.end(),
-      {{{"grains/drag", "N/m", "drag of the last exchange", 2, Entity::grain}, flat(water.drag)},
-       {{"grains/pressure", "N/m", "force of the last exchange's pressure", 2, Entity::grain}, flat(water.pressure)},
-       {{"grains/velocity", "m/s", "velocity when the fluid's last step began", 2, Entity::grain}, flat(water.velocity)}});
+  state.insert(state.end(), {{{"grains/drag", "N/m", "drag of the last exchange", 2, Entity::grain}, flat(water.drag)},
+                             {{"grains/pressure", "N/m", "force of the last exchange's pressure", 2, Entity::grain},
+                              flat(water.pressure)},
+                             {{"grains/velocity", "m/s", "velocity when the fluid's last step began", 2, Entity::grain},
+                              flat(water.velocity)}});
   add_gathering(state, "gathering", water.gathering);
   add_gathering(state, "recorded", water.recorded);
   for (Array& array : state) array.info.name = kPrefix + array.info.name;

@@ -14,8 +14,8 @@
 namespace seapile::support {
 
 struct Immersed {
-  double width = 1, depth = 1;               ///< of the water [m]; x in [-width/2, width/2], y in [0, depth]
-  std::int64_t columns = 10, rows = 10;      ///< of rectangles, halved; columns even
+  double width = 1, depth = 1;                  ///< of the water [m]; x in [-width/2, width/2], y in [0, depth]
+  std::int64_t columns = 10, rows = 10;         ///< of rectangles, halved; columns even
   double density = 1000, grain_density = 1500;  ///< [kg/m3]
   double kinematic_viscosity = 1e-6;            ///< [m2/s]
   double gravity = 9.81;                        ///< [m/s2]

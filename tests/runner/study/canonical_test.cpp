@@ -226,6 +226,10 @@ TEST(Canonical, IdsAreForEver) {
   scene.bed.preparation.solid_fraction = 0.82;
   EXPECT_EQ(case_id(canonical_text(scene.bed)), "bbeb67e62655bc821cb06f41c9dcd9a3dc32dc800a588200fe4efe77015a8377");
   EXPECT_EQ(id_of(scene), "f5247bf456abd1ae937fda85f01fd1e26cd8a0c455181115d3ef1a34739d6058");
+  scene = {};
+  scene.pile.emplace();
+  scene.fluid.emplace();
+  EXPECT_EQ(id_of(scene), "041d55c2964714e12c93bc5d9580e6586a0a9806f19db11c6f4f4f5418a3cee1");
 }
 
 // The ids above were given before there was a choice of method and solver.

@@ -96,8 +96,10 @@ TEST(SaturatedRun, SaysHowFarItsWaterGoesInAStepAndHowItsMeshChanges) {
   std::size_t absent = 0;
   for (const FlowRecord& r : all.flow_records) {
     fewest = std::min(fewest, r.vertices);
-    if (std::isnan(r.cfl)) ++absent;
-    else most = std::max(most, r.cfl);
+    if (std::isnan(r.cfl))
+      ++absent;
+    else
+      most = std::max(most, r.cfl);
   }
   EXPECT_EQ(metric(all.result, "cfl_max"), most);
   EXPECT_GT(most, 0.4 * 1e-3 / 0.09);
@@ -192,8 +194,8 @@ TEST(SaturatedRun, GoesBackToTheSameBitsWhenAStepIsRejected) {
 double largest_difference(const Simulation& a, const Simulation& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.grains.count(); ++i)
-    most = std::max({most, std::abs(a.grains.disc[i].x - b.grains.disc[i].x),
-                     std::abs(a.grains.disc[i].y - b.grains.disc[i].y)});
+    most = std::max(
+        {most, std::abs(a.grains.disc[i].x - b.grains.disc[i].x), std::abs(a.grains.disc[i].y - b.grains.disc[i].y)});
   return most / grains::RadiusSpec{}.min;
 }
 
@@ -247,7 +249,8 @@ TEST(SaturatedRun, ABedUnderStillWaterWithThePileAtRestStaysStill) {
   go_on(10000);  // 1e5 sub-steps
   double creep = 0, current = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
-    creep = std::max(creep, std::hypot(sim.grains.disc[i].x - before[i].x, sim.grains.disc[i].y - before[i].y) / before[i].radius);
+    creep = std::max(
+        creep, std::hypot(sim.grains.disc[i].x - before[i].x, sim.grains.disc[i].y - before[i].y) / before[i].radius);
   const std::vector<double>& unknown = sim.water->basin.flow.unknown;
   for (std::size_t v = 0; v < unknown.size() / 3; ++v)
     current = std::max(current, std::hypot(unknown[3 * v], unknown[3 * v + 1]));
