@@ -87,7 +87,7 @@ TEST_F(BasinCommands, ACurveIsAnyColumnOverAnyColumn) {
   EXPECT_THAT(place->run({"curve", "wave", "--of", "kinetic_energy,wave", "--against", "left"}).out,
               HasSubstr(",left[m],kinetic_energy[J/m],wave[m]\n"));
   EXPECT_THAT(place->run({"curve", "wave", "--of", "all"}).out,
-              HasSubstr(",small_angles[-],vertices[-],meshes[-],iterations[-]\n"));
+              HasSubstr(",small_angles[-],vertices[-],meshes[-],iterations[-],cfl[-]\n"));
   EXPECT_THAT(place->run({"curve", "small", "--of", "tip_resistance"}).out,
               HasSubstr(",depth[m],tip_resistance[Pa]\n"));
   EXPECT_THAT(place->run({"curve", "--where", "kind = flow"}).out, HasSubstr("volume_error"));
