@@ -37,9 +37,18 @@ static_assert(kJetFidelities.size() == kFidelities.size());
 constexpr std::array kBasinSteps = {0.0, 2e-3, 1e-3, 5e-4};  // [s]
 static_assert(kBasinSteps.size() == kFidelities.size());
 
-/// And for the fluid of a saturated bed: its step, and in the thesis the porosity that its law of drag has.
-constexpr std::array kFluidSteps = {1e-4, 2e-3, 1e-3, 5e-4};  // [s]
-static_assert(kFluidSteps.size() == kFidelities.size());
+/// And for the fluid of a saturated bed: its step and how far its equations are solved; in the thesis also the
+/// porosity that its law of drag has.
+struct FluidFidelity {
+  double step, tolerance;  ///< [s], [-]
+};
+constexpr std::array kFluidFidelities = {
+    FluidFidelity{1e-4, 1e-5},
+    FluidFidelity{2e-3, 1e-4},
+    FluidFidelity{1e-3, 1e-5},
+    FluidFidelity{5e-4, 1e-8},
+};
+static_assert(kFluidFidelities.size() == kFidelities.size());
 
 }  // namespace
 
@@ -61,7 +70,8 @@ std::vector<Assignment> filled_by_fidelity(std::size_t level, const PlacePtr& pl
   fill("jet.lip_size", number_value(jet.lip_size, place));
   fill("jet.growth", number_value(jet.growth, place));
   fill("jet.largest_size", number_value(jet.largest_size, place));
-  fill("fluid.time.step", number_value(kFluidSteps[level], place));
+  fill("fluid.time.step", number_value(kFluidFidelities[level].step, place));
+  fill("fluid.time.tolerance", number_value(kFluidFidelities[level].tolerance, place));
   if (std::string_view(fidelity.name) == "thesis") {
     fill("fluid.coupling.drag.porosity", string_value("plane", place));
     fill("fluid.coupling.porosity.kernel", string_value("hat", place));

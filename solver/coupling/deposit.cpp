@@ -170,14 +170,17 @@ Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Di
   if (blocks.size() == 1) {
     result.vertex = std::move(blocks[0].vertex);
     result.volume = std::move(blocks[0].volume);
-    return result;
+  } else {
+    result.vertex.reserve(result.first.back());
+    result.volume.reserve(result.first.back());
+    for (const Rows& rows : blocks) {
+      result.vertex.insert(result.vertex.end(), rows.vertex.begin(), rows.vertex.end());
+      result.volume.insert(result.volume.end(), rows.volume.begin(), rows.volume.end());
+    }
   }
-  result.vertex.reserve(result.first.back());
-  result.volume.reserve(result.first.back());
-  for (const Rows& rows : blocks) {
-    result.vertex.insert(result.vertex.end(), rows.vertex.begin(), rows.vertex.end());
-    result.volume.insert(result.volume.end(), rows.volume.begin(), rows.volume.end());
-  }
+  result.immersed.resize(discs.size());
+  for (std::size_t i = 0; i < discs.size(); ++i)
+    for (std::int32_t k = result.first[i]; k < result.first[i + 1]; ++k) result.immersed[i] += result.volume[k];
   return result;
 }
 

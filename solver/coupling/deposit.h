@@ -37,6 +37,7 @@ struct Deposit {
   std::vector<std::int32_t> first;   ///< (grains + 1) where a grain's entries begin
   std::vector<std::int32_t> vertex;  ///< (entries) rising within a grain
   std::vector<double> volume;        ///< V_ij >= 0 [m2], (entries)
+  std::vector<double> immersed;      ///< V_i = sum_j V_ij, a grain's area in the mesh [m2], (grains)
 };
 
 /// A disc that is nowhere, with a number that is not finite, deposits nothing. The result depends on mesh and discs

@@ -17,9 +17,14 @@ void each_share(const Deposit& deposit, std::size_t grain, auto&& f) {
     f(static_cast<std::size_t>(deposit.vertex[k]), deposit.volume[k]);
 }
 
-base::Vec2 interstitial(const fluid::Flow& flow, std::size_t v) {
-  const auto vertex = static_cast<std::int32_t>(v);
-  return (1 / flow.porosity[v]) * base::Vec2{flow.u(vertex, kVelocityX), flow.u(vertex, kVelocityY)};
+/// u/phi at the vertices [m/s].
+std::vector<base::Vec2> interstitial(const fluid::Flow& flow) {
+  std::vector<base::Vec2> velocity(flow.mesh.vertices());
+  for (std::size_t v = 0; v < velocity.size(); ++v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    velocity[v] = (1 / flow.porosity[v]) * base::Vec2{flow.u(vertex, kVelocityX), flow.u(vertex, kVelocityY)};
+  }
+  return velocity;
 }
 
 /// g_j: grad p averaged over the vertex [Pa/m].
@@ -38,12 +43,6 @@ std::vector<base::Vec2> pressure_gradients(const fluid::Flow& flow, std::span<co
 }
 
 }  // namespace
-
-double immersed_volume(const Deposit& deposit, std::size_t grain) {
-  double volume = 0;
-  each_share(deposit, grain, [&](std::size_t, double share) { volume += share; });
-  return volume;
-}
 
 void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order) {
   struct Level {
@@ -71,15 +70,16 @@ void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOr
 
 std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Flow& flow, const Deposit& deposit,
                                       std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity) {
+  const std::vector<base::Vec2> between = interstitial(flow);
   std::vector<double> gamma(velocity.size(), 0);
   for (std::size_t i = 0; i < velocity.size(); ++i) {
-    const double volume = immersed_volume(deposit, i);
+    const double volume = deposit.immersed[i];
     if (!(volume > 0)) continue;
     double phi = 0;
     base::Vec2 fluid;
     each_share(deposit, i, [&](std::size_t v, double share) {
       phi += share * flow.porosity[v];
-      fluid = fluid + share * interstitial(flow, v);
+      fluid = fluid + share * between[v];
     });
     phi /= volume;
     const double slip = phi * norm((1 / volume) * fluid - velocity[i]), radius = disc[i].radius;
@@ -97,7 +97,7 @@ void put_grains(fluid::Flow& flow, const Deposit& deposit, std::span<const doubl
   std::ranges::fill(flow.mobility, 0.0);
   std::ranges::fill(flow.response, 0.0);
   for (std::size_t i = 0; i < grains.mass.size(); ++i) {
-    const double volume = immersed_volume(deposit, i);
+    const double volume = deposit.immersed[i];
     if (!(volume > 0)) continue;
     const double moves = dt * volume / grains.mass[i];  // volume carried per force
     each_share(deposit, i, [&](std::size_t v, double share) {
@@ -119,14 +119,14 @@ void put_grains(fluid::Flow& flow, const Deposit& deposit, std::span<const doubl
 
 Forces forces_on(const Deposit& deposit, const fluid::Flow& flow, std::span<const double> vertex_volume,
                  std::span<const double> kept, const Suspended& grains) {
-  const std::vector<base::Vec2> gradient = pressure_gradients(flow, vertex_volume);
+  const std::vector<base::Vec2> between = interstitial(flow), gradient = pressure_gradients(flow, vertex_volume);
   Forces forces{std::vector<base::Vec2>(grains.mass.size()), std::vector<base::Vec2>(grains.mass.size())};
   for (std::size_t i = 0; i < grains.mass.size(); ++i) {
-    const double volume = immersed_volume(deposit, i);
+    const double volume = deposit.immersed[i];
     if (!(volume > 0)) continue;
     base::Vec2 fluid;
     each_share(deposit, i, [&](std::size_t v, double share) {
-      fluid = fluid + (share / volume) * interstitial(flow, v);
+      fluid = fluid + (share / volume) * between[v];
       forces.pressure[i] = forces.pressure[i] - (share * kept[v]) * gradient[v];
     });
     forces.drag[i] = grains.drag[i] * (fluid - grains.velocity[i]);

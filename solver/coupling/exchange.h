@@ -63,7 +63,4 @@ struct Forces {
 Forces forces_on(const Deposit& deposit, const fluid::Flow& flow, std::span<const double> vertex_volume,
                  std::span<const double> kept, const Suspended& grains);
 
-/// Area of a grain in the mesh: sum of its V_ij [m2].
-double immersed_volume(const Deposit& deposit, std::size_t grain);
-
 }  // namespace seapile::coupling

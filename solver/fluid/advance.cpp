@@ -220,7 +220,7 @@ FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profi
   predict();
   FlowReport report;
   const bool stale = solver.factor.empty() || solver.factor_rate != scheme.rate ||
-                     solver.last_iterations > kManyIterations ||
+                     solver.last_iterations > kManyIterations || solver.excess_iterations >= kFactorWorth ||
                      solver.factor.matrix().rows() != static_cast<Eigen::Index>(given.size());
   if (!stale || refactor()) report = Iteration(flow, scheme, solver, follow, profile).run();
   if (!report.converged && !fresh) {
@@ -229,6 +229,12 @@ FlowReport advance(Flow& flow, const Past& past, FlowSolver& solver, base::Profi
   }
   report.refactored = fresh;
   solver.last_iterations = report.iterations;
+  if (fresh) {
+    solver.first_iterations = report.iterations;
+    solver.excess_iterations = 0;
+  } else {
+    solver.excess_iterations += std::max(0, report.iterations - solver.first_iterations);
+  }
   if (!report.converged) {
     report.reason = solver.factor.empty() ? "the flow's matrix is singular"
                                           : "the flow's equations were not solved within " +

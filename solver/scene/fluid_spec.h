@@ -32,7 +32,7 @@ void fields(auto& visit, base::SameAs<FluidMeshSpec> auto& mesh) {
 struct FluidTimeSpec {
   double step = 1e-3;       ///< dt of the fluid [s], a whole number of the grains' steps
   std::int64_t order = 1;   ///< of the scheme in time, 1 or 2
-  double tolerance = 1e-8;  ///< of the flow's equations [-]
+  double tolerance = 1e-5;  ///< of the flow's equations [-]
   std::optional<double> rate =
       {};  ///< the fastest rate that the stabilisation reckons with [1/s]; absent: the scheme's
   friend bool operator==(const FluidTimeSpec&, const FluidTimeSpec&) = default;

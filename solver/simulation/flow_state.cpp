@@ -126,8 +126,10 @@ void add_flow(std::vector<Array>& state, const fluid::Flow& flow, const fluid::P
   // The factors are made again from their matrix.
   add("factor/rate", "1/s", "rate of the scheme that it belongs to", 1, Entity::run,
       std::vector<double>{solver.factor_rate});
-  add("factor/counts", "-", "iterations of the last step, factors made", 1, Entity::run,
-      std::vector<std::int64_t>{solver.last_iterations, solver.refactorisations});
+  add("factor/counts", "-", "iterations of the last step, of the factor's first, beyond it since; factors made", 1,
+      Entity::run,
+      std::vector<std::int64_t>{solver.last_iterations, solver.first_iterations, solver.excess_iterations,
+                                solver.refactorisations});
   if (!solver.factor.empty()) {
     const Eigen::SparseMatrix<double>& m = solver.factor.matrix();
     add("factor/outer", "-", "first entry of each column", 1, Entity::run,
@@ -154,9 +156,11 @@ void restore_flow(fluid::Flow& flow, fluid::Past& past, fluid::FlowSolver& solve
                           array_of<double>(state, level_name(k, "porosity"), vertices)});
 
   solver.factor_rate = array_of<double>(state, "factor/rate", 1)[0];
-  const auto& counts = array_of<std::int64_t>(state, "factor/counts", 2);
+  const auto& counts = array_of<std::int64_t>(state, "factor/counts", 4);
   solver.last_iterations = static_cast<int>(counts[0]);
-  solver.refactorisations = counts[1];
+  solver.first_iterations = static_cast<int>(counts[1]);
+  solver.excess_iterations = static_cast<int>(counts[2]);
+  solver.refactorisations = counts[3];
   if (!has_array(state, "factor/value")) return;
   const auto& outer = array_of<std::int32_t>(state, "factor/outer", 3 * vertices + 1);
   const auto& value = array_of<double>(state, "factor/value");

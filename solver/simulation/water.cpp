@@ -46,7 +46,7 @@ OnMesh put_on(const mesh::TriangleMesh& mesh, coupling::Location& location, std:
 double immersed_share(const coupling::Deposit& deposit, std::span<const grains::Disc> disc) {
   double inside = 0, all = 0;
   for (std::size_t i = 0; i < disc.size(); ++i) {
-    inside += coupling::immersed_volume(deposit, i);
+    inside += deposit.immersed[i];
     all += std::numbers::pi * disc[i].radius * disc[i].radius;
   }
   return inside / all;
@@ -196,7 +196,7 @@ class WaterStep {
     sim_.grains.push.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const double radius = sim_.grains.disc[i].radius, area = std::numbers::pi * radius * radius,
-                   outside = std::max(0.0, 1 - coupling::immersed_volume(then_.deposit, i) / area);
+                   outside = std::max(0.0, 1 - then_.deposit.immersed[i] / area);
       sim_.grains.push[i] = (1 / sim_.grains.mass[i]) * (forces_.drag[i] + forces_.pressure[i]) -
                             base::Vec2{0, water_.buoyancy * outside};
     }

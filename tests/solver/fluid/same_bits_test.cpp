@@ -43,6 +43,8 @@ struct MovingFlow {
     copy.solver.tolerance = solver.tolerance;
     copy.solver.factor_rate = solver.factor_rate;
     copy.solver.last_iterations = solver.last_iterations;
+    copy.solver.first_iterations = solver.first_iterations;
+    copy.solver.excess_iterations = solver.excess_iterations;
     copy.solver.refactorisations = solver.refactorisations;
     if (!solver.factor.empty()) copy.solver.factor.factorise(solver.factor.matrix());
     return copy;
@@ -124,6 +126,24 @@ TEST(Advance, KeepsItsFactorWhileTheRateAndTheMeshStay) {
   run.solver.last_iterations = kManyIterations + 1;
   run.advance_to(4);
   EXPECT_EQ(run.refactored, (std::vector<int>{0, 1, 3}));
+}
+
+TEST(Advance, MakesANewFactorWhenTheOldOneHasCostAsMuch) {
+  MovingFlow run(Geometry::planar);
+  run.advance_to(2);
+  ASSERT_EQ(run.refactored, (std::vector<int>{0, 1}));
+  EXPECT_EQ(run.solver.excess_iterations, 0);
+  EXPECT_EQ(run.solver.first_iterations, run.solver.last_iterations);
+  run.solver.excess_iterations = kFactorWorth - 1;
+  run.solver.first_iterations = 0;
+  run.advance_to(3);
+  EXPECT_EQ(run.refactored, (std::vector<int>{0, 1}));
+  ASSERT_GT(run.solver.last_iterations, 0);
+  EXPECT_EQ(run.solver.excess_iterations, kFactorWorth - 1 + run.solver.last_iterations);
+  run.advance_to(4);
+  EXPECT_EQ(run.refactored, (std::vector<int>{0, 1, 3}));
+  EXPECT_EQ(run.solver.excess_iterations, 0);
+  EXPECT_EQ(run.solver.first_iterations, run.solver.last_iterations);
 }
 
 TEST(Advance, LeavesTheUnknownsWhenItFails) {

@@ -203,6 +203,7 @@ double largest_difference(const Simulation& a, const Simulation& b) {
 TEST(SaturatedRun, TendsToTheDryRunAsTheFluidGetsThin) {
   scene::SceneSpec scene = wet();
   scene.contact.precision = grains::Precision::double_;
+  scene.fluid->time.tolerance = 1e-9;  // What is left unsolved does not get thin with the fluid.
   const auto difference_after = [&](double density) {
     scene.fluid->density = density;
     Simulation saturated = build(scene, settled(scene.bed), {}), dry = build(scene, settled(scene.bed), {});
@@ -218,8 +219,8 @@ TEST(SaturatedRun, TendsToTheDryRunAsTheFluidGetsThin) {
     const double difference = difference_after(density);
     std::printf("density %g: grains are %.2e smallest radii from where the dry ones are\n", density, difference);
     EXPECT_GT(difference, 0);
-    // It is proportional, 0.01 each time, until forces decide which blocks of contacts rest: 1e-9 m.
-    EXPECT_LT(difference, std::max(0.1 * last, 1e-7));
+    // It is proportional, 0.01 each time, until forces decide which blocks of contacts rest: some 1e-9 m.
+    EXPECT_LT(difference, std::max(0.1 * last, 4e-7));
     last = difference;
   }
 }
