@@ -99,10 +99,14 @@ class Way {
       return false;
     }
     fluid::set_rates(basin_.flow, basin_.past, basin_.solver.order);
+    return true;
+  }
+
+  /// What the moved mesh carries: grains, values at the pile, pressures from outside.
+  void load_mesh() {
     if (suspension_.moved) suspension_.moved(basin_);
     move_pile();
     set_outside(basin_);
-    return true;
   }
 
   void undo() {
@@ -196,11 +200,14 @@ std::string step(Basin& basin, base::Profile& profile, const Suspension& suspens
     way.move_surface(false);
     if (!way.move_mesh()) return fail(way.objection());
   }
+  way.load_mesh();
   fluid::FollowFlow follow;
   if (is_iterated(basin.spec))
     follow = [&](fluid::Flow&) {
       way.move_surface(true);
-      return way.move_mesh();
+      if (!way.move_mesh()) return false;
+      way.load_mesh();
+      return true;
     };
   const fluid::FlowReport report = fluid::advance(flow, basin.past, basin.solver, profile, follow);
   if (!report.converged) return fail(way.objection().empty() ? report.reason : way.objection());
