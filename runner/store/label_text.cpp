@@ -7,7 +7,7 @@ namespace {
 
 /// Whether the value lists a part's members: "density=1300 kg/m3".
 bool is_part(const std::string& value) {
-  const std::size_t end = value.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
+  const std::size_t end = value.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.");
   return end != std::string::npos && end > 0 && value[end] == '=';
 }
 

@@ -79,6 +79,23 @@ std::string written_at(const Value& tree, const Path& path) {
   return text;
 }
 
+namespace {
+
+/// Adds a part's members as they are written, those of parts within it by their paths: "time.step=0.5 ms".
+void add_members(std::string& text, const std::string& before, const Value& part, const SchemaNode& node) {
+  for (std::size_t i = 0; i < part.items.size(); ++i) {
+    const SchemaNode* child = node.child(part.keys[i]);
+    if (!child) continue;
+    const Value& member = part.items[i];
+    if (member.kind == Kind::object && !member.items.empty() && child->kind != SchemaNode::Kind::variant)
+      add_members(text, before + part.keys[i] + ".", member, *child);
+    else
+      text += fmt::format("{}{}{}={}", text.empty() ? "" : ", ", before, part.keys[i], value_text(member, *child));
+  }
+}
+
+}  // namespace
+
 std::string value_text(const Value& value, const SchemaNode& node) {
   switch (value.kind) {
     case Kind::null:
@@ -92,15 +109,14 @@ std::string value_text(const Value& value, const SchemaNode& node) {
     case Kind::string:
       return value.text;
     case Kind::object: {
-      std::string inside;
-      for (std::size_t i = 0; i < value.items.size(); ++i) {
-        const SchemaNode* child = node.child(value.keys[i]);
-        if (!child) continue;
-        const std::string text = value_text(value.items[i], *child);
-        if (node.kind == SchemaNode::Kind::variant) return value.keys[i] + (text == "default" ? "" : "(" + text + ")");
-        inside += fmt::format("{}{}={}", inside.empty() ? "" : ", ", value.keys[i], text);
+      if (node.kind == SchemaNode::Kind::variant && !value.items.empty()) {
+        const SchemaNode* child = node.child(value.keys[0]);
+        const std::string text = child ? value_text(value.items[0], *child) : "default";
+        return value.keys[0] + (text == "default" ? "" : "(" + text + ")");
       }
-      return inside.empty() ? "default" : inside;
+      std::string members;
+      add_members(members, "", value, node);
+      return members.empty() ? "default" : members;
     }
     case Kind::array:
     case Kind::unusable:

@@ -18,6 +18,7 @@ TEST(LabelText, IsByThePathsOfAStudyOrShort) {
          "pile tip conical(apex_angle=0.5 rad)"},
         {"pile.tip", "conical(apex_angle=0.5 rad)", "pile.tip=conical(apex_angle=0.5 rad)",
          "tip conical(apex_angle=0.5 rad)"},
+        {"fluid", "time.step=0.1 ms", "fluid.time.step=0.1 ms", "fluid time.step 0.1 ms"},
         {"pile.depth", "1 m", "pile.depth=1 m", "depth 1 m"}}) {
     EXPECT_EQ(label_text(path, value), text);
     EXPECT_EQ(short_label_text(path, value), short_text);

@@ -103,6 +103,9 @@ TEST_F(Expand, LabelsOfPartsAreReadable) {
               ElementsAre("pile.tip=flat", "pile.tip=conical", "pile.tip=conical(apex_angle=0.5 rad)"));
   EXPECT_THAT(labels(study(R"("axes": {"pile": [null, {}, {"depth": "50 cm", "tip": "flat"}]})")),
               ElementsAre("pile=null", "pile=default", "pile=depth=50 cm, tip=flat"));
+  EXPECT_THAT(labels(study(R"("base": {"pile": {"depth": 1.2}},
+                                    "axes": {"fluid": [{"density": 1300, "time": {"step": 5e-4, "order": 2}}, {"mesh": {}}]})")),
+              ElementsAre("fluid=density=1300 kg/m3, time.step=0.0005 s, time.order=2", "fluid=mesh=default"));
 }
 
 // Of the same axis: what is null is dry, and what is an object has a fluid with these members.
