@@ -89,6 +89,59 @@ TEST(SaturatedRun, KeepsTheVolumeOfTheMixtureThroughAPenetrationWithARemesh) {
   for (const FlowRecord& r : all.flow_records) EXPECT_NEAR(r.immersed, 1, 1e-5);
 }
 
+/// Impulses on the grains, and what they have gained by them, over the sum of their magnitudes.
+double lost_momentum(Simulation& sim, int steps) {
+  const auto momentum = [&] {
+    base::Vec2 sum;
+    std::visit(
+        [&](const auto& system) {
+          for (std::size_t i = 0; i < sim.grains.count(); ++i) {
+            const auto& m = system.motion(static_cast<std::int32_t>(i));
+            sum = sum + sim.grains.mass[i] * base::Vec2{static_cast<double>(m.vx), static_cast<double>(m.vy)};
+          }
+        },
+        sim.contacts);
+    return sum;
+  };
+  double weight = 0;
+  for (const double m : sim.grains.mass) weight += m * sim.law.gravity;
+  const auto by_contacts = [&] {
+    base::Vec2 sum;
+    for (const grains::Impulse& p : {sim.totals.left, sim.totals.right, sim.totals.base})
+      sum = sum - base::Vec2{p.x, p.y};
+    for (const grains::Impulse& p : sim.totals.feature) sum = sum - base::Vec2{p.x, p.y};
+    return sum;
+  };
+  const base::Vec2 before = momentum(), contacts_before = by_contacts();
+  base::Vec2 expected;
+  double size = 0;
+  for (int k = 0; k < steps; ++k) {
+    step(sim);
+    expected = expected - base::Vec2{0, sim.clock.dt * weight};
+    for (std::size_t i = 0; i < sim.grains.count(); ++i) {
+      expected = expected + sim.clock.dt * sim.grains.mass[i] * sim.grains.push[i];
+      size += sim.clock.dt * (norm(sim.water->drag[i]) + norm(sim.water->pressure[i]));
+    }
+    size += sim.clock.dt * weight;
+  }
+  expected = expected + by_contacts() - contacts_before;
+  EXPECT_GT(norm(by_contacts() - contacts_before), 0.1 * weight * sim.clock.dt * steps) << "they do press";
+  return norm(momentum() - before - expected) / size;
+}
+
+// What the water gives them it loses: Exchange. Each sub-step rounds the velocity of each grain once.
+TEST(SaturatedRun, MomentumOfTheGrainsComesFromWeightWaterWallsAndPile) {
+  scene::SceneSpec scene = wet();
+  for (const auto precision : {grains::Precision::double_, grains::Precision::single_}) {
+    scene.contact.precision = precision;
+    Simulation sim = build(scene, settled(scene.bed), {});
+    const double lost = lost_momentum(sim, 400);
+    std::printf("%s precision: momentum lost, by all impulses: %.1e\n",
+                precision == grains::Precision::single_ ? "single" : "double", lost);
+    EXPECT_LT(lost, precision == grains::Precision::single_ ? 1e-6 : 1e-12);
+  }
+}
+
 // The water past which the pile goes at 0.4 m/s, in steps of 1 ms, on edges of at most 9 cm.
 TEST(SaturatedRun, SaysHowFarItsWaterGoesInAStepAndHowItsMeshChanges) {
   const Told all = told(wet());
