@@ -69,10 +69,17 @@ bool ByKinks::around(std::int32_t t, int k) {
   const double away = norm(hub);
   // On the vertex any ray will do that leaves t on the other side.
   const Vec2 axis = away > 0 ? (1 / away) * hub : edges_[spoke[0]].per_length * (hub - rim[0]);
+  const double share = away / r_;
+  std::array<double, kMost> x, y, beyond;
+  for (int m = 0; m < count; ++m) {
+    const Vec2 ray = edges_[spoke[m]].per_length * (rim[m] - hub);
+    x[m] = dot(axis, ray);
+    y[m] = std::min(std::abs(cross(axis, ray)), 1.0);
+  }
+  const double r = r_;
+  for (int m = 0; m < count; ++m) beyond[m] = beyond_ray(r, share, x[m], y[m]);
   for (int m = 0, before = count - 1; m < count; before = m++) {
-    const Edge& edge = edges_[spoke[m]];
-    const double beyond = beyond_ray(r_, away / r_, axis, edge.per_length * (rim[m] - hub));
-    add(edge, {k, place[m], place[m + 1], place[before]}, beyond);
+    add(edges_[spoke[m]], {k, place[m], place[m + 1], place[before]}, beyond[m]);
     if (!look(next(spoke[m]), {place[m], place[m + 1], k}, rim[m], rim[m + 1])) return false;
   }
   return true;

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "solver/coupling/by_kinks.h"
-#include "solver/coupling/by_one_edge.h"
 #include "solver/coupling/disc_in_triangle.h"
+#include "solver/coupling/one_edge_kernels.h"
 #include "solver/mesh/elements.h"
 
 namespace seapile::coupling {
@@ -35,6 +35,15 @@ struct Mesh {
   }
 };
 
+OneEdgeKernel kernel_of(base::InstructionSet set) {
+#if defined(SEAPILE_X86)
+  if (set == base::InstructionSet::avx512) return kOneEdgeKernel_avx512;
+  if (set == base::InstructionSet::avx2) return kOneEdgeKernel_avx2;
+#endif
+  (void)set;
+  return kOneEdgeKernel_generic;
+}
+
 /// Some grains' rows, and what one thread needs to make them.
 class Rows {
  public:
@@ -42,17 +51,19 @@ class Rows {
   std::vector<std::int32_t> vertex;
   std::vector<double> volume;
 
-  void make(const Mesh& mesh, std::vector<std::int32_t>& last, std::span<const Disc> discs, Kernel kernel,
-            std::size_t from, std::size_t to) {
+  void make(const Mesh& mesh, OneEdgeKernel one_edge, std::vector<std::int32_t>& last, std::span<const Disc> discs,
+            Kernel kernel, std::size_t from, std::size_t to) {
     count.reserve(to - from);
     ByKinks kinks(mesh.edges);
     for (std::size_t i = from; i < to; ++i) {
+      if (kernel == Kernel::disc && (i - from) % OneEdge::kDiscs == 0)
+        one_edge(mesh.edges.data(), discs.subspan(i, std::min<std::size_t>(to - i, OneEdge::kDiscs)), &last[i], few_);
       const std::size_t before = used_, grains_left = to - i;
       if (used_ + FewEntries::kMost > vertex.size()) grow(5 * grains_left);
       if (kernel == Kernel::hat)
         at_centre(mesh, discs[i], last[i]);
-      else if (!at_most_one_edge(mesh.edges, discs[i], last[i]))
-        over_edges(mesh, kinks, discs[i], last[i]);
+      else if (!write_few(few_, (i - from) % OneEdge::kDiscs))
+        over_edges(mesh, one_edge, kinks, discs[i], last[i]);
       count.push_back(static_cast<std::int32_t>(used_ - before));
     }
     vertex.resize(used_);
@@ -97,18 +108,23 @@ class Rows {
     for (int k = 0; k < 3; ++k) write(mesh.edges[3 * last + k].vertex, all * value_at_corner(mesh.edges, last, v, k));
   }
 
-  bool at_most_one_edge(const Edges& edges, const Disc& disc, std::int32_t t) {
-    const int entries = by_one_edge(edges, disc, t, &vertex[used_], &volume[used_]);
-    used_ += entries;
-    return entries > 0;
+  bool write_few(const OneEdge& rows, std::size_t n) {
+    std::ranges::copy(rows.vertex[n], &vertex[used_]);
+    std::ranges::copy(rows.volume[n], &volume[used_]);
+    used_ += rows.entries[n];
+    return rows.entries[n] > 0;
   }
 
-  /// What is not at_most_one_edge() of the triangle `last`.
-  void over_edges(const Mesh& mesh, ByKinks& kinks, const Disc& disc, std::int32_t& last) {
+  /// A disc that is not in the triangle `last`, or crosses more edges.
+  void over_edges(const Mesh& mesh, OneEdgeKernel one_edge, ByKinks& kinks, const Disc& disc, std::int32_t& last) {
     if (!is_somewhere(disc)) return;
     View v;
     const std::int32_t t = holder(mesh, {disc.x, disc.y}, last, v);
-    if (t != std::exchange(last, t) && at_most_one_edge(mesh.edges, disc, t)) return;
+    if (t != std::exchange(last, t)) {
+      OneEdge alone;
+      one_edge(mesh.edges.data(), {&disc, 1}, &t, alone);
+      if (write_few(alone, 0)) return;
+    }
     if (t >= 0 && kinks.make(disc, t, v))
       for (int k = 0; k < kinks.sum.count; ++k) write(kinks.sum.entry[k].vertex, kinks.sum.entry[k].volume);
     else
@@ -151,6 +167,7 @@ class Rows {
     }
   }
 
+  OneEdge few_;
   std::size_t used_ = 0;
   std::vector<std::int32_t> near_;
   std::vector<Entry> pieces_;
@@ -175,7 +192,7 @@ Location::Location(const TriangleMesh& mesh)
     : triangle(mesh.triangle), edges(mesh.triangle), buckets(mesh), position(mesh.position) {}
 
 Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Disc> discs, Kernel kernel,
-                base::Crew* crew) {
+                base::Crew* crew, base::InstructionSet instructions) {
   if (location.triangle != mesh.triangle) throw std::logic_error("coupling: grains were located in another mesh");
   if (location.last.size() != discs.size()) location.last.assign(discs.size(), -1);
   const Mesh here{mesh, location.edges, location.buckets, follow(mesh, location)};
@@ -186,21 +203,23 @@ Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Di
   std::vector<Rows> blocks((discs.size() + size - 1) / size);
   base::together(crew, [&](int me, int threads) {
     for (std::size_t b = me; b < blocks.size(); b += threads)
-      blocks[b].make(here, location.last, discs, kernel, b * size, std::min((b + 1) * size, discs.size()));
+      blocks[b].make(here, kernel_of(instructions), location.last, discs, kernel, b * size,
+                     std::min((b + 1) * size, discs.size()));
   });
 
   Deposit result;
   result.first.reserve(discs.size() + 1);
   result.first.push_back(0);
+  std::int32_t sum = 0;
   for (const Rows& rows : blocks)
-    for (const std::int32_t count : rows.count) result.first.push_back(result.first.back() + count);
+    for (const std::int32_t count : rows.count) result.first.push_back(sum += count);
   if (blocks.size() == 1) {
     result.vertex = std::move(blocks[0].vertex);
     result.volume = std::move(blocks[0].volume);
     return result;
   }
-  result.vertex.reserve(result.first.back());
-  result.volume.reserve(result.first.back());
+  result.vertex.reserve(sum);
+  result.volume.reserve(sum);
   for (const Rows& rows : blocks) {
     result.vertex.insert(result.vertex.end(), rows.vertex.begin(), rows.vertex.end());
     result.volume.insert(result.volume.end(), rows.volume.begin(), rows.volume.end());

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "solver/base/crew.h"
+#include "solver/base/instruction_set.h"
 #include "solver/coupling/coupling_spec.h"
 #include "solver/coupling/edges.h"
 #include "solver/grains/grains.h"
@@ -45,7 +46,8 @@ struct Deposit {
 /// A disc that is nowhere, with a number that is not finite, deposits nothing. The result depends on mesh and discs
 /// alone, bit for bit. Throws std::logic_error when `location` belongs to another mesh.
 Deposit deposit(const mesh::TriangleMesh& mesh, Location& location, std::span<const grains::Disc> discs,
-                Kernel kernel = Kernel::disc, base::Crew* crew = nullptr);
+                Kernel kernel = Kernel::disc, base::Crew* crew = nullptr,
+                base::InstructionSet instructions = base::fastest());
 
 /// S_j = sum_i V_ij in the order of the grains [m2], (vertices).
 std::vector<double> solid_volume(const Deposit& deposit, std::size_t vertices);

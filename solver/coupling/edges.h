@@ -44,6 +44,7 @@ class Edges {
   explicit Edges(std::span<const std::array<std::int32_t, 3>> triangles);
 
   const Edge& operator[](std::int32_t edge) const { return edge_[edge]; }
+  const Edge* data() const { return edge_.data(); }
 
   /// Takes places, lengths and kinks from the mesh: the share `me` of so many threads.
   void measure(const mesh::TriangleMesh& mesh, int me, int threads);
