@@ -1,13 +1,19 @@
 // A disc's share at each vertex where it crosses few edges: the usual case, as triangles are wider than grains.
+//
+// Of a disc in the mesh that holds at most one vertex. V_ij is the integral of the linear functions of its centre's
+// triangle, as if they had no end, and of what they bend by at each edge that the disc crosses: kink_j times the
+// integral of the distance beyond the edge. Where the edge ends outside of the disc, that is over a cap; caps do not
+// overlap. Where it ends at a vertex in the disc it is over the wedge from the edge to the ray from the vertex away
+// from the centre: all that is reached by crossing it, when one goes around the vertex either way as far as this ray.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 
-#include "solver/coupling/deposit.h"
 #include "solver/coupling/disc_in_triangle.h"
+#include "solver/coupling/edges.h"
 #include "solver/grains/grains.h"
-#include "solver/mesh/triangle_mesh.h"
 
 namespace seapile::coupling {
 
@@ -16,14 +22,22 @@ struct View {
   std::array<base::Vec2, 3> corner;  ///< relative to the centre [m]
   std::array<double, 3> turned;      ///< twice the area of the centre and the edge from corner k [m2]
 
-  double doubled() const { return turned[0] + turned[1] + turned[2]; }
+  /// Whether it holds the centre off its edges: then no other does.
+  bool holds() const { return (turned[0] > 0) & (turned[1] > 0) & (turned[2] > 0); }
 };
 
-inline View view(const mesh::TriangleMesh& mesh, std::int32_t triangle, base::Vec2 centre) {
-  const auto& t = mesh.triangle[triangle];
-  View v{{mesh.position[t[0]] - centre, mesh.position[t[1]] - centre, mesh.position[t[2]] - centre}, {}};
+inline View view(const Edges& edges, std::int32_t triangle, base::Vec2 centre) {
+  const Edge* const e = &edges[3 * triangle];
+  View v{{e[0].from - centre, e[1].from - centre, e[2].from - centre}, {}};
   for (int k = 0; k < 3; ++k) v.turned[k] = cross(v.corner[k], v.corner[(k + 1) % 3]);
   return v;
+}
+
+/// N of t's corner k at the centre.
+inline double value_at_corner(const Edges& edges, std::int32_t t, const View& v, int k) {
+  const int l = (k + 1) % 3;
+  const Edge& opposite = edges[3 * t + l];
+  return v.turned[l] * opposite.per_length * opposite.kink_opposite;
 }
 
 struct Entry {
@@ -45,39 +59,10 @@ struct FewEntries {
   }
 };
 
-/// An edge that the disc crosses, seen from the triangle on the centre's side.
-struct Crossed {
-  std::int32_t edge;                 ///< as in Location::across
-  std::array<int, 3> place;          ///< in FewEntries: of the edge's ends and of the corner opposite to it
-  std::array<base::Vec2, 3> corner;  ///< in the same order
-  double turned, doubled;            ///< of the edge and of the triangle
-};
-
-/// The edges that a disc crosses, in the order in which they were met.
-struct FewCrossed {
-  static constexpr int kMost = 8;
-  double radius = 0;
-  std::array<Crossed, kMost> edge;
-  int count = 0;
-
-  /// Takes the edge up if the disc crosses it; false when it is one too many. The disc holds neither end.
-  bool look(const Crossed& c) {
-    const base::Vec2 along = c.corner[1] - c.corner[0];
-    if (c.turned * c.turned >= radius * radius * dot(along, along)) return true;
-    if (dot(c.corner[0], along) >= 0 || dot(c.corner[1], along) <= 0) return true;  // it passes beside the ends
-    if (count == kMost) return false;
-    edge[count++] = c;
-    return true;
-  }
-};
-
-/// A disc that holds at most one vertex, of the triangle that holds its centre, and that stays in the mesh. The other
-/// edges that it crosses cut it into caps, which do not overlap. N_j goes on beyond an edge as it was before it, but
-/// for kink_j s, s the distance beyond the edge's line. So V_ij is the integral of the linear functions of the centre's
-/// triangle, or of those around the vertex, plus kink_j times the integral of s over each cap.
+/// Any disc that holds at most one vertex, in the mesh.
 class ByKinks {
  public:
-  ByKinks(const mesh::TriangleMesh& mesh, const Location& location) : mesh_(mesh), location_(location) {}
+  explicit ByKinks(const Edges& edges) : edges_(edges) {}
 
   /// False when the disc is none of these. `v`: how its centre sees t, which holds it.
   bool make(const grains::Disc& disc, std::int32_t t, const View& v);
@@ -85,22 +70,41 @@ class ByKinks {
   FewEntries sum;  ///< the share of each vertex [m2], of the last disc
 
  private:
+  /// An edge that the disc crosses, seen from the triangle on the centre's side.
+  struct Crossed {
+    std::int32_t edge;
+    std::array<int, 3> place;  ///< in `sum`: of the edge's ends and of the corner opposite to it
+    double distance;           ///< of the centre to its line [m]
+  };
+  static constexpr int kMostCrossed = 8;
+
   bool outside(base::Vec2 p) const { return dot(p, p) > r_ * r_; }
+  base::Vec2 from(std::int32_t edge) const { return edges_[edge].from - centre_; }
 
-  /// The disc, as if its centre's triangle had no end.
-  bool whole(std::int32_t t, const View& v);
+  /// Takes an edge up if the disc crosses it; false when it is one too many. The disc holds neither end.
+  bool look(std::int32_t edge, std::array<int, 3> place, base::Vec2 a, base::Vec2 b);
 
-  /// The disc, as if the triangles around the vertex at corner k of t went on beyond their third edges.
-  bool around(std::int32_t t, const View& v, int k);
+  /// The kinks at the edges from the vertex at corner k of t, which the disc holds; and takes up the edges opposite.
+  bool around(std::int32_t t, int k);
 
-  /// The kink at an edge, and the edges of the triangle beyond.
+  /// The kinks at an edge; and takes up those of the triangle beyond.
   bool cross_over(const Crossed& c);
 
-  const mesh::TriangleMesh& mesh_;
-  const Location& location_;
+  /// What an edge adds; the places are those of its ends, of the corner opposite to it and of the neighbour's.
+  void add(const Edge& edge, std::array<int, 4> place, double integral) {
+    const double a = integral * edge.kink_from, opposite = integral * edge.kink_opposite,
+                 far = integral * edge.kink_far;
+    sum.entry[place[0]].volume += a;
+    sum.entry[place[1]].volume -= a + opposite + far;
+    sum.entry[place[2]].volume += opposite;
+    sum.entry[place[3]].volume += far;
+  }
+
+  const Edges& edges_;
   base::Vec2 centre_;
   double r_ = 0;
-  FewCrossed crossed_;
+  std::array<Crossed, kMostCrossed> crossed_;
+  int crosses_ = 0;
 };
 
 }  // namespace seapile::coupling

@@ -16,8 +16,11 @@
 #include <vector>
 
 #include "solver/base/crew.h"
+#include "solver/base/instruction_set.h"
 #include "solver/coupling/coupling_spec.h"
+#include "solver/coupling/edges.h"
 #include "solver/grains/grains.h"
+#include "solver/mesh/elements.h"
 #include "solver/mesh/triangle_mesh.h"
 
 namespace seapile::coupling {
@@ -27,15 +30,16 @@ struct Location {
   explicit Location(const mesh::TriangleMesh& mesh);
 
   std::vector<std::array<std::int32_t, 3>> triangle;  ///< of the mesh
-  std::vector<std::int32_t> across;  ///< (3 triangles) at 3 t + k, of t's edge from corner k: the same edge of its
-                                     ///< neighbour, likewise; -1 at the boundary
-  std::vector<std::int32_t> last;    ///< (grains) a triangle to look into first, or -1; for speed alone
+  Edges edges;                                        ///< measured anew in each call
+  mesh::Buckets buckets;                              ///< of the mesh with its vertices at `position`
+  std::vector<base::Vec2> position;
+  std::vector<std::int32_t> last;  ///< (grains) a triangle to look into first, or -1; for speed alone
 };
 
 /// V_ij by grain, as a sparse matrix by rows.
 struct Deposit {
   std::vector<std::int32_t> first;   ///< (grains + 1) where a grain's entries begin
-  std::vector<std::int32_t> vertex;  ///< (entries) rising within a grain
+  std::vector<std::int32_t> vertex;  ///< (entries) each once within a grain
   std::vector<double> volume;        ///< V_ij >= 0 [m2], (entries)
   std::vector<double> immersed;      ///< V_i = sum_j V_ij, a grain's area in the mesh [m2], (grains)
 };
@@ -43,7 +47,8 @@ struct Deposit {
 /// A disc that is nowhere, with a number that is not finite, deposits nothing. The result depends on mesh and discs
 /// alone, bit for bit. Throws std::logic_error when `location` belongs to another mesh.
 Deposit deposit(const mesh::TriangleMesh& mesh, Location& location, std::span<const grains::Disc> discs,
-                Kernel kernel = Kernel::disc, base::Crew* crew = nullptr);
+                Kernel kernel = Kernel::disc, base::Crew* crew = nullptr,
+                base::InstructionSet instructions = base::fastest());
 
 /// S_j = sum_i V_ij in the order of the grains [m2], (vertices).
 std::vector<double> solid_volume(const Deposit& deposit, std::size_t vertices);

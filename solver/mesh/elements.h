@@ -45,6 +45,8 @@ class Buckets {
   /// Those that may overlap the box, by rising number.
   void near(const Box& box, std::vector<std::int32_t>& found) const;
 
+  double cell_size() const { return cell_; }  ///< [m]
+
  private:
   struct Cells {
     std::int32_t left, right, bottom, top;

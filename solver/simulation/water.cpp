@@ -37,8 +37,9 @@ struct OnMesh {
   coupling::Porosity porosity;
 };
 OnMesh put_on(const mesh::TriangleMesh& mesh, coupling::Location& location, std::span<const grains::Disc> disc,
-              const coupling::PorositySpec& spec, base::Crew* crew) {
-  OnMesh on{coupling::deposit(mesh, location, disc, spec.kernel, crew), coupling::vertex_volume(mesh), {}};
+              const coupling::PorositySpec& spec, base::InstructionSet instructions, base::Crew* crew) {
+  OnMesh on{
+      coupling::deposit(mesh, location, disc, spec.kernel, crew, instructions), coupling::vertex_volume(mesh), {}};
   on.porosity = coupling::porosity(coupling::solid_volume(on.deposit, on.volume.size()), on.volume, spec.least);
   return on;
 }
@@ -107,7 +108,8 @@ Water water_around(const Simulation& sim, const basin::BasinSpec& spec, const co
   water.pressure.assign(sim.grains.count(), {});
   water.velocity = velocities_of(sim);
   // The mesh's first porosity is that of the grains.
-  OnMesh on = put_on(water.basin.flow.mesh, water.location, discs_of(sim), water.coupling.porosity, nullptr);
+  OnMesh on = put_on(water.basin.flow.mesh, water.location, discs_of(sim), water.coupling.porosity,
+                     sim.team.instructions, nullptr);
   water.basin.flow.porosity = on.porosity.phi;
   water.basin.past.level[0].porosity = std::move(on.porosity.phi);
   return water;
@@ -213,7 +215,7 @@ class WaterStep {
  private:
   OnMesh found(const mesh::TriangleMesh& mesh, std::span<const grains::Disc> disc) {
     const base::Stopwatch watch(sim_.profile, in_deposit_);
-    return put_on(mesh, water_.location, disc, water_.coupling.porosity, sim_.team.crew.get());
+    return put_on(mesh, water_.location, disc, water_.coupling.porosity, sim_.team.instructions, sim_.team.crew.get());
   }
   Outlook outlook() const {
     const auto disc = discs_of(sim_);

@@ -58,6 +58,17 @@ TEST(DiscInTriangle, WhatLiesBeyondALineIsExactUpToTouching) {
                 1e-9);
 }
 
+TEST(DiscInTriangle, WhatLiesBeyondARayIsAWedge) {
+  for (const double away : {0.0, 1e-9, 0.3, 0.8, 1.0})
+    for (const double angle : {0.0, 1e-7, 0.4, 1.5, kPi / 2, 2.0, 3.1}) {
+      const base::Vec2 vertex = {away, 0}, ray = {std::cos(angle), std::sin(angle)}, across = {ray.y, -ray.x};
+      const Moments m = disc_in_triangle(1, vertex, {60, 0}, vertex + 60 * ray);
+      EXPECT_NEAR(beyond_ray(1, away, ray.x, ray.y), dot(across, m.first) - m.area * dot(across, vertex), 1e-14)
+          << away << " " << angle;
+    }
+  EXPECT_NEAR(beyond_ray(2, 0.5, -1, 0), 8 * beyond_line(1, 0), 1e-14);  // to the centre: half the disc
+}
+
 TEST(DiscInTriangle, TouchingIsNoOverlap) {
   EXPECT_NEAR(disc_in_triangle(1, {-3, 1}, {3, 1}, {0, 4}).area, 0, 1e-15);       // an edge
   EXPECT_NEAR(disc_in_triangle(1, {0, 1}, {3, 4}, {-3, 4}).area, 0, 1e-15);       // a vertex
