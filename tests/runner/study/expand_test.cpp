@@ -330,8 +330,27 @@ TEST(Studies, TheCampaignSharesEveryCaseWithTheOthers) {
   EXPECT_TRUE(campaign.contains(shipped("surface").cases[0].id)) << "a free surface is what is usual";
 }
 
+TEST(Studies, ChapterSixIsTheNineCasesOfItsThreeStudies) {
+  const auto ids = [](std::initializer_list<const char*> names) {
+    std::set<std::string> found;
+    for (const char* name : names)
+      for (const Case& one : shipped(name).cases) found.insert(one.id);
+    return found;
+  };
+  const std::set<std::string> nine = ids({"chapter_6"});
+  EXPECT_EQ(nine.size(), 9u);
+  EXPECT_EQ(nine, ids({"velocity", "tip_shape", "fluid"}));
+  for (const Case& one : shipped("chapter_6_fine").cases) {
+    EXPECT_EQ(one.scene.contact.step, 1e-4);
+    if (one.scene.fluid) {
+      EXPECT_EQ(one.scene.fluid->time.step, 1e-4);
+    }
+  }
+}
+
 TEST(Studies, OfChapterSixAreAllAtItsSize) {
-  for (const char* name : {"tip_shape", "velocity", "fluid", "campaign", "surface", "vibratory"})
+  for (const char* name :
+       {"tip_shape", "velocity", "fluid", "campaign", "surface", "vibratory", "chapter_6", "chapter_6_fine"})
     for (const Case& one : shipped(name).cases) {
       EXPECT_EQ(one.scene.bed.grains.count, 11596) << name;
       EXPECT_EQ(one.scene.bed.domain.width, 5) << name;
