@@ -6,6 +6,7 @@ machine changes. `rest` is the wall time that no part counts: building the run, 
 only the last worker's times and are left out.
 """
 
+import argparse
 import csv
 import json
 import pathlib
@@ -36,7 +37,7 @@ def row_of(manifest):
 
 
 def main(store):
-    manifests = [json.loads(p.read_text()) for p in sorted(pathlib.Path(store).glob("cases/*/*/manifest.json"))]
+    manifests = [json.loads(p.read_text()) for p in sorted(store.glob("cases/*/*/manifest.json"))]
     rows = [row_of(m) for m in manifests if m["kind"] in ("bed", "drive") and m["provenance"]["attempts"] == 1]
     columns = list(dict.fromkeys(name for row in sorted(rows, key=len, reverse=True) for name in row))
     writer = csv.DictWriter(sys.stdout, columns, restval="", lineterminator="\n")
@@ -46,4 +47,9 @@ def main(store):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("store", type=pathlib.Path, help="folder of all results, as of runner --store")
+    store = parser.parse_args().store
+    if not (store / "cases").is_dir():
+        parser.error(f"{store} holds no results: it has no folder cases")
+    main(store)
