@@ -12,7 +12,7 @@
 //   - when there is none, the rate of the scheme has changed, or the mesh is another one;
 //   - when the last step took more than kManyIterations, or when the corrections that the steps since the last factor
 //     took beyond what the first of them took add up to what a factor costs: nobody knows for how long a factor would
-//     have served, and this rule spends at most twice what the best choice would;
+//     have served, and if a new one does as well as this one did at first, the rule spends at most twice the least;
 //   - when a step does not converge within kMostIterations: it begins again with a new one.
 //
 // Where the domain depends on the flow of the same step (a free surface), it is found by the same iteration: the domain

@@ -228,7 +228,10 @@ TEST_F(KillTest, AKilledRunnerLeavesNoWorkerAndTheSameCommandFinishes) {
       const pid_t runner = place.start(kCommand);
       std::this_thread::sleep_for(random_moment() / 2);
       ::kill(runner, SIGKILL);
-      wait_for(runner) == -SIGKILL ? static_cast<void>(++killed) : missed();
+      if (wait_for(runner) == -SIGKILL)
+        ++killed;
+      else
+        missed();
       EXPECT_TRUE(deserted(place)) << "a worker outlived its runner";
       expect_only_whole_runs(place);
       sealed.merge(sealed_runs(place));
