@@ -8,6 +8,13 @@ namespace seapile::coupling {
 
 using base::Vec2;
 
+namespace {
+
+/// Discs overlap walls by less than this, of r. Behind a deeper cap there may be water again.
+constexpr double kDeepest = 0.01;
+
+}  // namespace
+
 bool ByKinks::make(const grains::Disc& disc, std::int32_t t, const View& v) {
   centre_ = {disc.x, disc.y};
   r_ = disc.radius;
@@ -45,6 +52,7 @@ bool ByKinks::look(std::int32_t edge, std::array<int, 3> place, Vec2 a, Vec2 b) 
 
 bool ByKinks::around(std::int32_t t, int k) {
   constexpr int kMost = FewEntries::kMost - kMostCrossed - 1;
+  static_assert(kMost <= Rays::kMost);
   std::array<std::int32_t, kMost> spoke;  // from the hub, counterclockwise; the first two are of t
   std::array<Vec2, kMost + 1> rim;        // where they end
   std::array<int, kMost + 1> place;
@@ -69,17 +77,15 @@ bool ByKinks::around(std::int32_t t, int k) {
   const double away = norm(hub);
   // On the vertex any ray will do that leaves t on the other side.
   const Vec2 axis = away > 0 ? (1 / away) * hub : edges_[spoke[0]].per_length * (hub - rim[0]);
-  const double share = away / r_;
-  std::array<double, kMost> x, y, beyond;
+  rays_.count = count;
   for (int m = 0; m < count; ++m) {
     const Vec2 ray = edges_[spoke[m]].per_length * (rim[m] - hub);
-    x[m] = dot(axis, ray);
-    y[m] = std::min(std::abs(cross(axis, ray)), 1.0);
+    rays_.x[m] = dot(axis, ray);
+    rays_.y[m] = std::min(std::abs(cross(axis, ray)), 1.0);
   }
-  const double r = r_;
-  for (int m = 0; m < count; ++m) beyond[m] = beyond_ray(r, share, x[m], y[m]);
+  wedges_(r_, away / r_, rays_);
   for (int m = 0, before = count - 1; m < count; before = m++) {
-    add(edges_[spoke[m]], {k, place[m], place[m + 1], place[before]}, beyond[m]);
+    add(edges_[spoke[m]], {k, place[m], place[m + 1], place[before]}, rays_.beyond[m]);
     if (!look(next(spoke[m]), {place[m], place[m + 1], k}, rim[m], rim[m + 1])) return false;
   }
   return true;
@@ -87,13 +93,29 @@ bool ByKinks::around(std::int32_t t, int k) {
 
 bool ByKinks::cross_over(const Crossed& c) {
   const Edge& edge = edges_[c.edge];
-  if (edge.from_far < 0) return false;
+  if (edge.from_far < 0) return cut_off(c);
   const Vec2 a = from(c.edge), b = from(next(c.edge)), far = from(edge.from_far);
   if (!outside(far)) return false;
   const auto [at_a, at_b, opposite] = c.place;
   const int place = sum.place_of(edges_[edge.from_far].vertex);
   add(edge, {at_a, at_b, opposite, place}, beyond_line(r_, std::max(c.distance, 0.0) / r_));
   return look(edge.to_far, {at_a, place, at_b}, a, far) && look(edge.from_far, {place, at_b, at_a}, far, b);
+}
+
+bool ByKinks::cut_off(const Crossed& c) {
+  if (!(c.distance > (1 - kDeepest) * r_)) return false;
+  const double half_chord2 = (r_ - c.distance) * (r_ + c.distance),
+               moment = 2.0 / 3 * half_chord2 * std::sqrt(half_chord2),
+               area = (moment - beyond_line(r_, c.distance / r_)) / c.distance;
+  // Outwards N of the opposite corner falls by the inverse height, those of the ends take its share.
+  const Vec2 a = from(c.edge), along = from(next(c.edge)) - a, up = from(previous(c.edge)) - a;
+  const double falls = edges_[c.edge].kink_opposite, at_to = falls * dot(up, along) / dot(along, along);
+  const std::array<double, 3> slope = {falls - at_to, at_to, -falls};
+  const std::int32_t t = c.edge / 3;
+  const View v = view(edges_, t, centre_);
+  for (int n = 0; n < 3; ++n)
+    sum.entry[c.place[n]].volume -= value_at_corner(edges_, t, v, (c.edge + n) % 3) * area + slope[n] * moment;
+  return true;
 }
 
 }  // namespace seapile::coupling

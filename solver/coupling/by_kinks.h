@@ -1,10 +1,13 @@
 // A disc's share at each vertex where it crosses few edges: the usual case, as triangles are wider than grains.
 //
-// Of a disc in the mesh that holds at most one vertex. V_ij is the integral of the linear functions of its centre's
+// Of a disc that holds at most one vertex. V_ij is the integral of the linear functions of its centre's
 // triangle, as if they had no end, and of what they bend by at each edge that the disc crosses: kink_j times the
 // integral of the distance beyond the edge. Where the edge ends outside of the disc, that is over a cap; caps do not
 // overlap. Where it ends at a vertex in the disc it is over the wedge from the edge to the ray from the vertex away
 // from the centre: all that is reached by crossing it, when one goes around the vertex either way as far as this ray.
+// What reaches over the boundary by less than a hundredth of the radius, as discs do that lie against a wall, is taken
+// away: over the cap beyond it, at the distance d, of area A and first moment M across the edge,
+//   int N_j = N_j(x_i) A + (dN_j/dn) M,   M = 2/3 (r^2 - d^2)^1.5,   A = (M - int (s - d))/d.
 #pragma once
 
 #include <array>
@@ -13,6 +16,7 @@
 
 #include "solver/coupling/disc_in_triangle.h"
 #include "solver/coupling/edges.h"
+#include "solver/coupling/wedge_kernels.h"
 #include "solver/grains/grains.h"
 
 namespace seapile::coupling {
@@ -59,10 +63,10 @@ struct FewEntries {
   }
 };
 
-/// Any disc that holds at most one vertex, in the mesh.
+/// Any disc that holds at most one vertex and is in the mesh, but for flat caps.
 class ByKinks {
  public:
-  explicit ByKinks(const Edges& edges) : edges_(edges) {}
+  ByKinks(const Edges& edges, WedgeKernel wedges) : edges_(edges), wedges_(wedges) {}
 
   /// False when the disc is none of these. `v`: how its centre sees t, which holds it.
   bool make(const grains::Disc& disc, std::int32_t t, const View& v);
@@ -90,6 +94,9 @@ class ByKinks {
   /// The kinks at an edge; and takes up those of the triangle beyond.
   bool cross_over(const Crossed& c);
 
+  /// Takes away what is beyond an edge of the boundary; false where that is more.
+  bool cut_off(const Crossed& c);
+
   /// What an edge adds; the places are those of its ends, of the corner opposite to it and of the neighbour's.
   void add(const Edge& edge, std::array<int, 4> place, double integral) {
     const double a = integral * edge.kink_from, opposite = integral * edge.kink_opposite,
@@ -101,6 +108,8 @@ class ByKinks {
   }
 
   const Edges& edges_;
+  WedgeKernel wedges_;
+  Rays rays_;
   base::Vec2 centre_;
   double r_ = 0;
   std::array<Crossed, kMostCrossed> crossed_;

@@ -10,6 +10,7 @@
 #include "solver/coupling/by_kinks.h"
 #include "solver/coupling/disc_in_triangle.h"
 #include "solver/coupling/one_edge_kernels.h"
+#include "solver/coupling/wedge_kernels.h"
 #include "solver/mesh/elements.h"
 
 namespace seapile::coupling {
@@ -35,13 +36,18 @@ struct Mesh {
   }
 };
 
-OneEdgeKernel kernel_of(base::InstructionSet set) {
+struct Kernels {
+  OneEdgeKernel one_edge;
+  WedgeKernel wedges;
+};
+
+Kernels kernels_of(base::InstructionSet set) {
 #if defined(SEAPILE_X86)
-  if (set == base::InstructionSet::avx512) return kOneEdgeKernel_avx512;
-  if (set == base::InstructionSet::avx2) return kOneEdgeKernel_avx2;
+  if (set == base::InstructionSet::avx512) return {kOneEdgeKernel_avx512, kWedgeKernel_avx512};
+  if (set == base::InstructionSet::avx2) return {kOneEdgeKernel_avx2, kWedgeKernel_avx2};
 #endif
   (void)set;
-  return kOneEdgeKernel_generic;
+  return {kOneEdgeKernel_generic, kWedgeKernel_generic};
 }
 
 /// Some grains' rows, and what one thread needs to make them.
@@ -51,10 +57,12 @@ class Rows {
   std::vector<std::int32_t> vertex;
   std::vector<double> volume;
 
-  void make(const Mesh& mesh, OneEdgeKernel one_edge, std::vector<std::int32_t>& last, std::span<const Disc> discs,
-            Kernel kernel, std::size_t from, std::size_t to) {
+  /// `immersed`: of all grains.
+  void make(const Mesh& mesh, const Kernels& kernels, std::vector<std::int32_t>& last, std::span<const Disc> discs,
+            Kernel kernel, std::size_t from, std::size_t to, std::vector<double>& immersed) {
+    const OneEdgeKernel one_edge = kernels.one_edge;
     count.reserve(to - from);
-    ByKinks kinks(mesh.edges);
+    ByKinks kinks(mesh.edges, kernels.wedges);
     for (std::size_t i = from; i < to; ++i) {
       if (kernel == Kernel::disc && (i - from) % OneEdge::kDiscs == 0)
         one_edge(mesh.edges.data(), discs.subspan(i, std::min<std::size_t>(to - i, OneEdge::kDiscs)), &last[i], few_);
@@ -65,6 +73,9 @@ class Rows {
       else if (!write_few(few_, (i - from) % OneEdge::kDiscs))
         over_edges(mesh, one_edge, kinks, discs[i], last[i]);
       count.push_back(static_cast<std::int32_t>(used_ - before));
+      double sum = 0;
+      for (std::size_t k = before; k < used_; ++k) sum += volume[k];
+      immersed[i] = sum;
     }
     vertex.resize(used_);
     volume.resize(used_);
@@ -189,25 +200,29 @@ double follow(const TriangleMesh& mesh, Location& location) {
 }  // namespace
 
 Location::Location(const TriangleMesh& mesh)
-    : triangle(mesh.triangle), edges(mesh.triangle), buckets(mesh), position(mesh.position) {}
+    : triangle(mesh.triangle), edges(mesh.triangle), measured(), buckets(mesh), position(mesh.position) {}
 
 Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Disc> discs, Kernel kernel,
                 base::Crew* crew, base::InstructionSet instructions) {
   if (location.triangle != mesh.triangle) throw std::logic_error("coupling: grains were located in another mesh");
   if (location.last.size() != discs.size()) location.last.assign(discs.size(), -1);
   const Mesh here{mesh, location.edges, location.buckets, follow(mesh, location)};
-  base::together(crew, [&](int me, int threads) { location.edges.measure(mesh, me, threads); });
+  if (location.measured != mesh.position) {
+    base::together(crew, [&](int me, int threads) { location.edges.measure(mesh, me, threads); });
+    location.measured = mesh.position;
+  }
 
   // Blocks of grains, which do not depend on the number of threads; without a crew a single one.
   const std::size_t size = crew != nullptr ? 512 : std::max<std::size_t>(discs.size(), 1);
   std::vector<Rows> blocks((discs.size() + size - 1) / size);
+  Deposit result;
+  result.immersed.resize(discs.size());
   base::together(crew, [&](int me, int threads) {
     for (std::size_t b = me; b < blocks.size(); b += threads)
-      blocks[b].make(here, kernel_of(instructions), location.last, discs, kernel, b * size,
-                     std::min((b + 1) * size, discs.size()));
+      blocks[b].make(here, kernels_of(instructions), location.last, discs, kernel, b * size,
+                     std::min((b + 1) * size, discs.size()), result.immersed);
   });
 
-  Deposit result;
   result.first.reserve(discs.size() + 1);
   result.first.push_back(0);
   std::int32_t sum = 0;
@@ -224,9 +239,6 @@ Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Di
       result.volume.insert(result.volume.end(), rows.volume.begin(), rows.volume.end());
     }
   }
-  result.immersed.resize(discs.size());
-  for (std::size_t i = 0; i < discs.size(); ++i)
-    for (std::int32_t k = result.first[i]; k < result.first[i + 1]; ++k) result.immersed[i] += result.volume[k];
   return result;
 }
 

@@ -30,8 +30,9 @@ struct Location {
   explicit Location(const mesh::TriangleMesh& mesh);
 
   std::vector<std::array<std::int32_t, 3>> triangle;  ///< of the mesh
-  Edges edges;                                        ///< measured anew in each call
-  mesh::Buckets buckets;                              ///< of the mesh with its vertices at `position`
+  Edges edges;
+  std::vector<base::Vec2> measured;  ///< where the vertices were when the edges were measured; empty: never
+  mesh::Buckets buckets;             ///< of the mesh with its vertices at `position`
   std::vector<base::Vec2> position;
   std::vector<std::int32_t> last;  ///< (grains) a triangle to look into first, or -1; for speed alone
 };

@@ -46,7 +46,7 @@ Moments disc_in_triangle(double r, base::Vec2 a, base::Vec2 b, base::Vec2 c);
 /// The same in the part of the disc between a ray from a vertex and the ray from there away from the centre, of the
 /// distance beyond the former's line [m3]. The vertex is away r from the centre, 0 <= away <= 1; the ray's direction
 /// has the components x along the other and y >= 0 across it.
-inline double beyond_ray(double r, double away, double x, double y) {
+[[gnu::always_inline]] inline double beyond_ray(double r, double away, double x, double y) {
   // The ray and its opposite have the cap beyond their line together: half of it, and what one has more.
   const double more =
       r * r * r * std::abs(x) * (1 - away) * (2 - away * (1 + away) * y * y) / 6 + 0.5 * away * beyond_line(r, y);

@@ -7,6 +7,8 @@
 // and water to water. With it, pressure drop and fluidisation are those of a bed of porosity phi_3.
 #pragma once
 
+#include <span>
+
 #include "solver/coupling/coupling_spec.h"
 #include "solver/fluid/element.h"
 
@@ -19,5 +21,10 @@ double equivalent_porosity(double porosity);
 /// grain, > 0; `superficial_slip`: phi |v_f - v_i| [m/s].
 double drag_coefficient(const DragSpec& law, const fluid::Properties& fluid, double diameter, double porosity,
                         double superficial_slip);
+
+/// The same of many discs, each of them bit for bit.
+void drag_coefficients(const DragSpec& law, const fluid::Properties& fluid, std::span<const double> diameter,
+                       std::span<const double> porosity, std::span<const double> superficial_slip,
+                       std::span<double> gamma);
 
 }  // namespace seapile::coupling

@@ -17,15 +17,24 @@
 // and lift; the random motion of grains; shapes other than round.
 #pragma once
 
+#include <cmath>
+
+#include "solver/coupling/inverse_fifth_root.h"
 #include "solver/fluid/element.h"
 
 namespace seapile::coupling {
 
 /// rho C_d |U| of a sphere [kg/m2/s]. Finite for U -> 0 (23.04 mu/d) and for rho -> 0.
-double sphere_resistance(const fluid::Properties& fluid, double diameter, double superficial_slip);
+inline double sphere_resistance(const fluid::Properties& fluid, double diameter, double superficial_slip) {
+  const double root = 0.63 * std::sqrt(fluid.density * superficial_slip) + 4.8 * std::sqrt(fluid.viscosity / diameter);
+  return root * root;
+}
 
 /// gamma [kg/m/s]; diameter d [m], |U| [m/s].
-double dallavalle_drag(const fluid::Properties& fluid, double diameter, double porosity, double porosity_in_law,
-                       double superficial_slip);
+inline double dallavalle_drag(const fluid::Properties& fluid, double diameter, double porosity, double porosity_in_law,
+                              double superficial_slip) {
+  return 0.5 * diameter * sphere_resistance(fluid, diameter, superficial_slip) * porosity * porosity *
+         power_minus_4_8(porosity_in_law);
+}
 
 }  // namespace seapile::coupling

@@ -1,6 +1,7 @@
 #include "solver/coupling/exchange.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,20 +12,23 @@ using fluid::kPressure;
 using fluid::kVelocityX;
 using fluid::kVelocityY;
 
-/// Calls f(vertex, V_ij) for a grain.
-void each_share(const Deposit& deposit, std::size_t grain, auto&& f) {
-  for (std::int32_t k = deposit.first[grain]; k < deposit.first[grain + 1]; ++k)
-    f(static_cast<std::size_t>(deposit.vertex[k]), deposit.volume[k]);
+/// Four fields at the vertices, side by side: a grain's sums read them in one go.
+using Four = std::array<double, 4>;
+
+/// sum_j V_ij f_j of a grain.
+Four integral(const Deposit& deposit, std::size_t grain, const std::vector<Four>& field) {
+  Four sum{};
+  for (std::int32_t k = deposit.first[grain]; k < deposit.first[grain + 1]; ++k) {
+    const Four& at = field[deposit.vertex[k]];
+    for (int c = 0; c < 4; ++c) sum[c] += deposit.volume[k] * at[c];
+  }
+  return sum;
 }
 
-/// u/phi at the vertices [m/s].
-std::vector<base::Vec2> interstitial(const fluid::Flow& flow) {
-  std::vector<base::Vec2> velocity(flow.mesh.vertices());
-  for (std::size_t v = 0; v < velocity.size(); ++v) {
-    const auto vertex = static_cast<std::int32_t>(v);
-    velocity[v] = (1 / flow.porosity[v]) * base::Vec2{flow.u(vertex, kVelocityX), flow.u(vertex, kVelocityY)};
-  }
-  return velocity;
+/// u/phi at a vertex [m/s].
+base::Vec2 interstitial(const fluid::Flow& flow, std::size_t v) {
+  const auto vertex = static_cast<std::int32_t>(v);
+  return (1 / flow.porosity[v]) * base::Vec2{flow.u(vertex, kVelocityX), flow.u(vertex, kVelocityY)};
 }
 
 /// g_j: grad p averaged over the vertex [Pa/m].
@@ -70,66 +74,74 @@ void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOr
 
 std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Flow& flow, const Deposit& deposit,
                                       std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity) {
-  const std::vector<base::Vec2> between = interstitial(flow);
-  std::vector<double> gamma(velocity.size(), 0);
-  for (std::size_t i = 0; i < velocity.size(); ++i) {
-    const double volume = deposit.immersed[i];
-    if (!(volume > 0)) continue;
-    double phi = 0;
-    base::Vec2 fluid;
-    each_share(deposit, i, [&](std::size_t v, double share) {
-      phi += share * flow.porosity[v];
-      fluid = fluid + share * between[v];
-    });
-    phi /= volume;
-    const double slip = phi * norm((1 / volume) * fluid - velocity[i]), radius = disc[i].radius;
-    gamma[i] = std::min(1.0, volume / (std::numbers::pi * radius * radius)) *
-               drag_coefficient(law, flow.fluid, 2 * radius, phi, slip);
+  std::vector<Four> field(flow.mesh.vertices());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const base::Vec2 between = interstitial(flow, v);
+    field[v] = {flow.porosity[v], between.x, between.y, 0};
   }
+  const std::size_t grains = velocity.size();
+  std::vector<double> diameter(grains), porosity(grains), slip(grains), gamma(grains);
+  for (std::size_t i = 0; i < grains; ++i) {
+    const Four sum = integral(deposit, i, field);
+    // Grains that are not in the fluid slip as if they were alone in it.
+    const bool inside = deposit.immersed[i] > 0;
+    const double per_volume = inside ? 1 / deposit.immersed[i] : 0;
+    diameter[i] = 2 * disc[i].radius;
+    porosity[i] = inside ? sum[0] * per_volume : 1;
+    const base::Vec2 relative = base::Vec2{sum[1] * per_volume, sum[2] * per_volume} - velocity[i];
+    slip[i] = dot(relative, relative);
+  }
+  for (std::size_t i = 0; i < grains; ++i) slip[i] = porosity[i] * std::sqrt(slip[i]);
+  drag_coefficients(law, flow.fluid, diameter, porosity, slip, gamma);
+  for (std::size_t i = 0; i < grains; ++i)
+    gamma[i] *= std::min(1.0, deposit.immersed[i] / (std::numbers::pi * disc[i].radius * disc[i].radius));
   return gamma;
 }
 
 void put_grains(fluid::Flow& flow, const Deposit& deposit, std::span<const double> vertex_volume,
                 std::span<const double> kept, const Suspended& grains, double dt) {
-  const std::size_t vertices = flow.mesh.vertices();
-  std::vector<double> resistance(vertices, 0);  // B_j
-  std::vector<base::Vec2> momentum(vertices);
-  std::ranges::fill(flow.mobility, 0.0);
-  std::ranges::fill(flow.response, 0.0);
+  // What a grain adds to: B_j, momentum x and y, volume moved per force by pressure and by drag; a cache line.
+  struct alignas(64) Sums {
+    std::array<double, 6> of;
+  };
+  std::vector<Sums> sums(flow.mesh.vertices());
   for (std::size_t i = 0; i < grains.mass.size(); ++i) {
     const double volume = deposit.immersed[i];
     if (!(volume > 0)) continue;
-    const double moves = dt * volume / grains.mass[i];  // volume carried per force
-    each_share(deposit, i, [&](std::size_t v, double share) {
-      const double gamma = grains.drag[i] * (share / volume);
-      resistance[v] += gamma;
-      momentum[v] = momentum[v] + gamma * grains.velocity[i];
-      flow.mobility[v] += moves * share * kept[v];
-      flow.response[v] += moves * gamma;
-    });
+    const double gamma = grains.drag[i] / volume, moves = dt * volume / grains.mass[i];
+    const base::Vec2 momentum = gamma * grains.velocity[i];
+    const std::array<double, 6> each = {gamma, momentum.x, momentum.y, moves, moves * gamma, 0};
+    for (std::int32_t k = deposit.first[i]; k < deposit.first[i + 1]; ++k) {
+      std::array<double, 6>& sum = sums[deposit.vertex[k]].of;
+      for (int c = 0; c < 6; ++c) sum[c] += deposit.volume[k] * each[c];
+    }
   }
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const double phi = flow.porosity[v], volume = vertex_volume[v];
-    flow.drag[v] = resistance[v] / (volume * phi);
-    flow.carried[v] = resistance[v] > 0 ? (phi / resistance[v]) * momentum[v] : base::Vec2{};
-    flow.mobility[v] /= volume;
-    flow.response[v] /= volume * phi;
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const auto& [resistance, momentum_x, momentum_y, moved, response, unused] = sums[v].of;
+    const double per_volume = 1 / vertex_volume[v], per_fluid = per_volume / flow.porosity[v];
+    flow.drag[v] = resistance * per_fluid;
+    flow.carried[v] =
+        resistance > 0 ? (flow.porosity[v] / resistance) * base::Vec2{momentum_x, momentum_y} : base::Vec2{};
+    flow.mobility[v] = moved * kept[v] * per_volume;
+    flow.response[v] = response * per_fluid;
   }
 }
 
 Forces forces_on(const Deposit& deposit, const fluid::Flow& flow, std::span<const double> vertex_volume,
                  std::span<const double> kept, const Suspended& grains) {
-  const std::vector<base::Vec2> between = interstitial(flow), gradient = pressure_gradients(flow, vertex_volume);
+  const std::vector<base::Vec2> gradient = pressure_gradients(flow, vertex_volume);
+  std::vector<Four> field(flow.mesh.vertices());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const base::Vec2 between = interstitial(flow, v), borne = kept[v] * gradient[v];
+    field[v] = {between.x, between.y, borne.x, borne.y};
+  }
   Forces forces{std::vector<base::Vec2>(grains.mass.size()), std::vector<base::Vec2>(grains.mass.size())};
   for (std::size_t i = 0; i < grains.mass.size(); ++i) {
-    const double volume = deposit.immersed[i];
-    if (!(volume > 0)) continue;
-    base::Vec2 fluid;
-    each_share(deposit, i, [&](std::size_t v, double share) {
-      fluid = fluid + (share / volume) * between[v];
-      forces.pressure[i] = forces.pressure[i] - (share * kept[v]) * gradient[v];
-    });
-    forces.drag[i] = grains.drag[i] * (fluid - grains.velocity[i]);
+    if (!(deposit.immersed[i] > 0)) continue;
+    const Four sum = integral(deposit, i, field);
+    const double per_volume = 1 / deposit.immersed[i];
+    forces.drag[i] = grains.drag[i] * (base::Vec2{sum[0] * per_volume, sum[1] * per_volume} - grains.velocity[i]);
+    forces.pressure[i] = {-sum[2], -sum[3]};
   }
   return forces;
 }

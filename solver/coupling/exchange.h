@@ -40,9 +40,9 @@ namespace seapile::coupling {
 
 /// The grains as the fluid meets them within a step, one by one, (grains).
 struct Suspended {
-  std::vector<double> mass;          ///< m [kg/m]
-  std::vector<double> drag;          ///< gamma_e [kg/m/s]
-  std::vector<base::Vec2> velocity;  ///< v* [m/s]
+  std::span<const double> mass;          ///< m [kg/m]
+  std::span<const double> drag;          ///< gamma_e [kg/m/s]
+  std::span<const base::Vec2> velocity;  ///< v* [m/s]
 };
 
 /// Sets flow.porosity_rate at the flow's porosity and places, and those of `past`.

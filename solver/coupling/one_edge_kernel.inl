@@ -68,7 +68,7 @@ void by_one_edge(const Edge* edges, std::span<const grains::Disc> discs, const s
     const double beside = beside_a < beside_b ? beside_a : beside_b;
     const double alone = inside[n] >= 0 ? beside - r : -1.0;
     const bool crosses = distance[n] < r;
-    const double fits = crosses ? alone : 0.0, counted = crosses ? 4.0 : 3.0;
+    const double fits = crosses ? alone : 0.0, counted = inside[n] >= 0 ? 4.0 : 3.0;
     const double worst = fits < free[n] ? fits : free[n];
     entries[n] = worst >= 0 ? counted : 0.0;
     const double all = std::numbers::pi * r * r, integral = beyond_line(r, distance[n] / r);

@@ -14,7 +14,8 @@
 
 namespace seapile::coupling {
 
-/// Rows of some discs.
+/// Rows of some discs. They are of four entries, also where the last is 0, but for discs whose nearest edge is the
+/// boundary's: loops over rows are faster when these are of one length.
 struct OneEdge {
   static constexpr int kDiscs = 16;
   std::array<int, kDiscs> entries;  ///< that count; 0 when the disc is none of these

@@ -119,7 +119,7 @@ namespace {
 /// The grains as the fluid's step expects them at its end, if its exchange is none.
 struct Outlook {
   std::vector<grains::Disc> disc;
-  coupling::Suspended suspended;
+  std::vector<base::Vec2> velocity;  ///< v* [m/s], (grains)
 };
 
 /// A step of the fluid, once or twice.
@@ -147,7 +147,7 @@ class WaterStep {
     Outlook ahead = outlook();
     for (std::size_t i = 0; i < drag_.size(); ++i) {
       const double inverse = 1 / sim_.grains.mass[i];
-      ahead.suspended.velocity[i] = 2 * velocity_[i] - water_.velocity[i] - (dt_ * inverse) * water_.drag[i];
+      ahead.velocity[i] = 2 * velocity_[i] - water_.velocity[i] - (dt_ * inverse) * water_.drag[i];
       move(ahead.disc[i], dt_ * (velocity_[i] - (dt_ * inverse) * (water_.drag[i] + water_.pressure[i])));
     }
     return ahead;
@@ -159,7 +159,7 @@ class WaterStep {
     const std::vector<base::Vec2> velocity = velocities_of(sim_);
     for (std::size_t i = 0; i < drag_.size(); ++i) {
       const double inverse = 1 / sim_.grains.mass[i];
-      ahead.suspended.velocity[i] = velocity[i] - (dt_ * inverse) * first.drag[i];
+      ahead.velocity[i] = velocity[i] - (dt_ * inverse) * first.drag[i];
       move(ahead.disc[i], (-dt_ * dt_ * inverse) * (first.drag[i] + first.pressure[i]));
     }
     return ahead;
@@ -167,17 +167,18 @@ class WaterStep {
 
   /// Advances the fluid. Empty when it is done; otherwise nothing has changed.
   std::string solve(const Outlook& ahead) {
+    const coupling::Suspended suspended = {sim_.grains.mass, drag_, ahead.velocity};
     basin::Suspension suspension;
     suspension.moved = [&](basin::Basin& moved) {
       then_ = found(moved.flow.mesh, ahead.disc);
       const base::Stopwatch watch(sim_.profile, in_exchange_);
       moved.flow.porosity = then_.porosity.phi;
       coupling::set_porosity_rate(moved.flow, moved.past, moved.solver.order);
-      coupling::put_grains(moved.flow, then_.deposit, then_.volume, then_.porosity.kept, ahead.suspended, dt_);
+      coupling::put_grains(moved.flow, then_.deposit, then_.volume, then_.porosity.kept, suspended, dt_);
     };
     suspension.solved = [&](const basin::Basin& solved) {
       const base::Stopwatch watch(sim_.profile, in_exchange_);
-      forces_ = coupling::forces_on(then_.deposit, solved.flow, then_.volume, then_.porosity.kept, ahead.suspended);
+      forces_ = coupling::forces_on(then_.deposit, solved.flow, then_.volume, then_.porosity.kept, suspended);
     };
     suspension.remeshed = [&](fluid::Flow& flow) {
       water_.location = coupling::Location(flow.mesh);
@@ -218,7 +219,7 @@ class WaterStep {
   }
   Outlook outlook() const {
     const auto disc = discs_of(sim_);
-    return {{disc.begin(), disc.end()}, {sim_.grains.mass, drag_, std::vector<base::Vec2>(disc.size())}};
+    return {{disc.begin(), disc.end()}, std::vector<base::Vec2>(disc.size())};
   }
   static void move(grains::Disc& disc, base::Vec2 way) {
     disc.x += way.x;

@@ -143,6 +143,27 @@ TEST(Deposit, OnlyWhatLiesInTheMeshCounts) {
   }
 }
 
+TEST(Deposit, ADiscAgainstAWallIsCutOffThere) {
+  // Overlaps of contacts, and deeper ones that are summed triangle by triangle.
+  const TriangleMesh mesh = notched();
+  const Refined once = refined(mesh), twice = refined(once.mesh), thrice = refined(twice.mesh);
+  std::vector<Disc> discs;
+  for (const double overlap : {1e-12, 1e-9, 1e-7, 1e-5, 1e-3, 9.9e-3, 1.1e-2, 0.1, 0.5})
+    for (int i = 0; i < 40; ++i) {
+      const double r = uniform(0.011, 0.019, 7, 0, i), to_wall = (1 - overlap) * r;
+      discs.push_back({to_wall, uniform(0.1, 0.9, 7, 1, i), r, 0});
+      discs.push_back({uniform(0.1, 1, 7, 2, i), to_wall, r, 0});
+    }
+  const Deposit here = fresh(mesh, discs), there = fresh(thrice.mesh, discs);
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const auto gathered =
+        once.gathered(twice.gathered(thrice.gathered(row(there, i, thrice.mesh.vertices()), twice.mesh.vertices()),
+                                     once.mesh.vertices()),
+                      mesh.vertices());
+    ASSERT_LT(worst(row(here, i, mesh.vertices()), gathered), 2e-14 * area_of(discs[i])) << i;
+  }
+}
+
 TEST(Deposit, AFloatingDiscHasItsShareUnderWater) {
   const TriangleMesh mesh = shaken(0.5, 0.5);
   const double r = 0.017;

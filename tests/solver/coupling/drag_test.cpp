@@ -16,6 +16,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "solver/coupling/drag_dallavalle1948.h"
 #include "solver/coupling/drag_difelice1994.h"
@@ -72,6 +73,26 @@ TEST(Drag, HasTheClosedFormsOfItsSources) {
         EXPECT_NEAR(gamma(kClosures[1], DragPorosity::equivalent) / di_felice, std::pow(phi / phi_3, beta + 1),
                     1e-5 * std::pow(phi / phi_3, beta + 1));
       }
+}
+
+TEST(Drag, PowersOfThePorosityAreThoseOfTheLibrary) {
+  for (double x = 1e-4; x < 1.5; x *= 1.0003) {
+    ASSERT_NEAR(inverse_fifth_root(x) * std::pow(x, 0.2), 1, 1e-15) << x;
+    ASSERT_NEAR(power_minus_4_8(x) * std::pow(x, 4.8), 1, 3e-15) << x;
+  }
+  for (const double x : {1e-30, 1e30}) EXPECT_NEAR(inverse_fifth_root(x) * std::pow(x, 0.2), 1, 1e-15);
+}
+
+TEST(Drag, OfManyDiscsIsThatOfEach) {
+  const std::vector<double> d = {0.02, 0.03, 0.04, 1e-3, 0.03}, phi = {0.1, 0.5, 1, 0.3, 0.9},
+                            slip = {0, 1e-6, 0.3, 2, 0.01};
+  for (const auto closure : kClosures)
+    for (const auto porosity : kPorosities) {
+      std::vector<double> gamma(d.size());
+      drag_coefficients({closure, porosity}, water_of(1300), d, phi, slip, gamma);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        EXPECT_EQ(gamma[i], drag_coefficient({closure, porosity}, water_of(1300), d[i], phi[i], slip[i])) << i;
+    }
 }
 
 TEST(Drag, TheDensestDiscsAreTheDensestSpheres) {

@@ -41,6 +41,7 @@ std::vector<Disc> random_discs(int count, std::uint64_t seed) {
 
 /// A random flow, with grains put into it as a step of the fluid does.
 struct Scene {
+  Scene(const Scene&) = delete;  // it views itself
   explicit Scene(std::uint64_t seed, Kernel kernel = Kernel::disc, double least = kLeast)
       : flow(fluid::at_rest(shaken(1, 1), {1000, 1e-3})), discs(random_discs(600, seed)) {
     Location location(flow.mesh);
@@ -52,11 +53,12 @@ struct Scene {
       flow.unknown[k] = uniform(-1, 1, seed, 3, k) * (k % 3 == kPressure ? 100 : 0.1);
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const double mass = kGrainDensity * std::numbers::pi * discs[i].radius * discs[i].radius;
-      grains.mass.push_back(mass);
-      grains.velocity.push_back({uniform(-0.2, 0.2, seed, 4, i), uniform(-0.2, 0.2, seed, 5, i)});
+      masses.push_back(mass);
+      velocities.push_back({uniform(-0.2, 0.2, seed, 4, i), uniform(-0.2, 0.2, seed, 5, i)});
       const double gamma = uniform(0.1, 50, seed, 6, i);
-      grains.drag.push_back(gamma * mass / (mass + kStep * gamma));
+      drags.push_back(gamma * mass / (mass + kStep * gamma));
     }
+    grains = {masses, drags, velocities};
     put_grains(flow, on, volume, porosity.kept, grains, kStep);
   }
   Vec2 u(std::size_t v) const { return {flow.unknown[3 * v], flow.unknown[3 * v + 1]}; }
@@ -73,7 +75,9 @@ struct Scene {
   Deposit on;
   std::vector<double> volume;
   Porosity porosity;
-  Suspended grains;
+  std::vector<double> masses, drags;
+  std::vector<Vec2> velocities;
+  Suspended grains;  ///< views of these
 };
 
 double largest(Vec2 a) { return std::max(std::abs(a.x), std::abs(a.y)); }
@@ -238,12 +242,13 @@ TEST(Exchange, TheAnswerIsThatOfGrainsOfTheirDensity) {
   std::erase_if(scene.discs, [](const Disc& d) { return std::min({d.x, d.y, 1 - d.x, 1 - d.y}) <= d.radius; });
   Location location(scene.flow.mesh);
   scene.on = deposit(scene.flow.mesh, location, scene.discs);
-  scene.grains.mass.clear();
-  for (const Disc& d : scene.discs) scene.grains.mass.push_back(kGrainDensity * std::numbers::pi * d.radius * d.radius);
+  scene.masses.clear();
+  for (const Disc& d : scene.discs) scene.masses.push_back(kGrainDensity * std::numbers::pi * d.radius * d.radius);
   scene.porosity = porosity(solid_volume(scene.on, scene.volume.size()), scene.volume, kLeast);
   scene.flow.porosity = scene.porosity.phi;
-  scene.grains.drag.resize(scene.discs.size());
-  scene.grains.velocity.resize(scene.discs.size());
+  scene.drags.resize(scene.discs.size());
+  scene.velocities.resize(scene.discs.size());
+  scene.grains = {scene.masses, scene.drags, scene.velocities};
   put_grains(scene.flow, scene.on, scene.volume, scene.porosity.kept, scene.grains, kStep);
   ASSERT_GT(scene.porosity.clipped, 0);
   for (std::size_t v = 0; v < scene.volume.size(); ++v) {
