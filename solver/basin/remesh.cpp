@@ -44,7 +44,7 @@ void settle(fluid::Flow& flow, const fluid::FlowSolver& like, double dt) {
 
 bool needs_new_mesh(const Basin& basin) {
   const auto& rule = basin.spec.mesh.remesh;
-  return rule && mesh::asks_for_new_mesh({rule->angle, rule->share, rule->shape}, mesh::quality_of(basin.flow.mesh));
+  return rule && mesh::asks_for_new_mesh({rule->angle, rule->share, rule->shape}, basin.flow.mesh);
 }
 
 mesh::TriangleMesh mesh_for(const BasinSpec& spec, const std::vector<base::Vec2>& right_half_of_top, double tip) {

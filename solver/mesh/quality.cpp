@@ -1,7 +1,9 @@
 #include "solver/mesh/quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace seapile::mesh {
 namespace {
@@ -16,6 +18,23 @@ double share_of(const std::vector<double>& values, Such is_such) {
              : static_cast<double>(std::ranges::count_if(values, is_such)) / static_cast<double>(values.size());
 }
 
+/// A triangle's shape, and sine and cosine of its smallest angle times the edges beside it.
+struct Corners {
+  double shape, sine, cosine;
+};
+
+Corners corners_of(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t) {
+  const base::Vec2 p[3] = {mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]};
+  const base::Vec2 edge[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
+  const double squares[3] = {dot(edge[0], edge[0]), dot(edge[1], edge[1]), dot(edge[2], edge[2])};
+  const double doubled = doubled_area(p[0], p[1], p[2]), sum = squares[0] + squares[1] + squares[2];
+  // The smallest angle lies opposite the shortest edge.
+  const auto k = std::min_element(squares, squares + 3) - squares;
+  const double q = 2 * std::numbers::sqrt3 * doubled / sum;
+  if (!std::isfinite(q)) return {0, 0, 1};
+  return {q, doubled, 0 - dot(edge[(k + 1) % 3], edge[(k + 2) % 3])};
+}
+
 }  // namespace
 
 Quality quality_of(const TriangleMesh& mesh) {
@@ -23,16 +42,11 @@ Quality quality_of(const TriangleMesh& mesh) {
   quality.shape.reserve(mesh.triangles());
   quality.smallest_angle.reserve(mesh.triangles());
   for (const auto& t : mesh.triangle) {
-    const base::Vec2 p[3] = {mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]};
-    const base::Vec2 edge[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
-    const double squares[3] = {dot(edge[0], edge[0]), dot(edge[1], edge[1]), dot(edge[2], edge[2])};
-    const double doubled = doubled_area(p[0], p[1], p[2]), sum = squares[0] + squares[1] + squares[2];
-    // The smallest angle lies opposite the shortest edge; sine and cosine together are exact for every angle.
-    const auto k = std::min_element(squares, squares + 3) - squares;
-    const double q = 2 * std::numbers::sqrt3 * doubled / sum;
-    const double angle = std::atan2(doubled, 0 - dot(edge[(k + 1) % 3], edge[(k + 2) % 3]));
-    quality.shape.push_back(std::isfinite(q) ? q : 0);
-    quality.smallest_angle.push_back(std::isfinite(q) ? angle : 0);
+    const Corners c = corners_of(mesh, t);
+    quality.shape.push_back(c.shape);
+    // Sine and cosine together are exact for every angle.
+    const double angle = std::atan2(c.sine, c.cosine);
+    quality.smallest_angle.push_back(std::isfinite(angle) ? angle : 0);
   }
   return quality;
 }
@@ -50,6 +64,18 @@ bool asks_for_new_mesh(const RemeshRule& rule, const Quality& quality) {
   return std::ranges::any_of(quality.shape, [&](double q) { return q < rule.shape; }) ||
          (!quality.shape.empty() &&
           share_of(quality.smallest_angle, [&](double angle) { return angle < rule.angle; }) >= rule.share);
+}
+
+bool asks_for_new_mesh(const RemeshRule& rule, const TriangleMesh& mesh) {
+  const double sine = std::sin(rule.angle), cosine = std::cos(rule.angle);
+  std::size_t small = 0;
+  for (const auto& t : mesh.triangle) {
+    const Corners c = corners_of(mesh, t);
+    if (c.shape < rule.shape) return true;
+    if (c.sine <= 0 || sine * c.cosine > cosine * c.sine) ++small;
+  }
+  const auto all = static_cast<double>(mesh.triangles());
+  return all > 0 && static_cast<double>(small) / all >= rule.share;
 }
 
 }  // namespace seapile::mesh

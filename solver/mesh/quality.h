@@ -37,4 +37,8 @@ struct RemeshRule {
 
 bool asks_for_new_mesh(const RemeshRule& rule, const Quality& quality);
 
+/// The same of a mesh, in each step of the fluid: an angle is below another when the sine of their difference says so,
+/// and no arc tangent is taken.
+bool asks_for_new_mesh(const RemeshRule& rule, const TriangleMesh& mesh);
+
 }  // namespace seapile::mesh

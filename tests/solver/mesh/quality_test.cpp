@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/base/random.h"
+
 namespace seapile::mesh {
 namespace {
 
@@ -97,6 +99,36 @@ TEST(RemeshRule, FollowsItsOwnLimits) {
   EXPECT_TRUE(asks_for_new_mesh({.angle = 40 * kDegree}, hundred(5, 0.8, 39 * kDegree)));
   EXPECT_TRUE(asks_for_new_mesh({.share = 0.01}, hundred(1, 0.6, 29 * kDegree)));
   EXPECT_TRUE(asks_for_new_mesh({.shape = 0.7}, hundred(1, 0.6, 31 * kDegree)));
+}
+
+TEST(RemeshRule, OfAMeshIsThatOfItsQuality) {
+  // Meshes of loose triangles, from good ones to such that are flat, turn over or are nowhere.
+  int asked = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    TriangleMesh mesh;
+    const double spread = base::uniform(0, 1.2, seed, 0, 0);
+    for (int t = 0; t < 60; ++t) {
+      const double turned = base::uniform(0, 7, seed, 1, t), size = base::uniform(0.01, 1, seed, 2, t);
+      for (int k = 0; k < 3; ++k) {
+        const double angle = turned + 2 * std::numbers::pi / 3 * k,
+                     x = base::uniform(-spread, spread, seed, 3, 3 * t + k),
+                     y = base::uniform(-spread, spread, seed, 4, 3 * t + k);
+        mesh.position.push_back(size * base::Vec2{std::cos(angle) + x, std::sin(angle) + y});
+      }
+      mesh.triangle.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    if (seed % 50 == 7) mesh.position[5].x = std::numeric_limits<double>::quiet_NaN();
+    if (seed % 50 == 8) mesh.position[4] = mesh.position[3];
+    for (const double angle : {15 * kDegree, 30 * kDegree, 50 * kDegree})
+      for (const double share : {0.0, 0.05, 0.3, 1.0})
+        for (const double shape : {-2.0, 0.0, 0.3}) {
+          const bool asks = asks_for_new_mesh({angle, share, shape}, mesh);
+          EXPECT_EQ(asks, asks_for_new_mesh({angle, share, shape}, quality_of(mesh))) << seed << " " << angle;
+          asked += asks;
+        }
+  }
+  EXPECT_GT(asked, 400 * 36 / 10);
+  EXPECT_LT(asked, 400 * 36 * 9 / 10);
 }
 
 }  // namespace
