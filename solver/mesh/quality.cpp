@@ -72,7 +72,7 @@ bool asks_for_new_mesh(const RemeshRule& rule, const TriangleMesh& mesh) {
   for (const auto& t : mesh.triangle) {
     const Corners c = corners_of(mesh, t);
     if (c.shape < rule.shape) return true;
-    if (c.sine <= 0 || sine * c.cosine > cosine * c.sine) ++small;
+    if (sine * c.cosine > cosine * c.sine) ++small;
   }
   const auto all = static_cast<double>(mesh.triangles());
   return all > 0 && static_cast<double>(small) / all >= rule.share;

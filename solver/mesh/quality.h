@@ -37,8 +37,8 @@ struct RemeshRule {
 
 bool asks_for_new_mesh(const RemeshRule& rule, const Quality& quality);
 
-/// The same of a mesh, in each step of the fluid: an angle is below another when the sine of their difference says so,
-/// and no arc tangent is taken.
+/// The same of a mesh, in each step of the fluid, for rules with an angle below a right one: the sine of the difference
+/// says which of two angles is smaller, and no arc tangent is taken.
 bool asks_for_new_mesh(const RemeshRule& rule, const TriangleMesh& mesh);
 
 }  // namespace seapile::mesh

@@ -130,6 +130,8 @@ TEST(Deposit, OnARefinedMeshIsTheSame) {
   scene(notched(), scattered(3000, {0.02, 0.02}, {1.08, 0.98}));
   scene(notched(), scattered(500, {0.02, 0.02}, {1.08, 0.98}, 0.03, 0.1));
   scene(flat(), scattered(500, {0, 0}, {0.9, 0.018}, 0.001, 0.019));
+  for (const int triangles : {4, 7, 8, 9, 11, 12, 20})
+    scene(fan(triangles), scattered(200, {0.49, 0.49}, {0.51, 0.51}));
 }
 
 TEST(Deposit, OnlyWhatLiesInTheMeshCounts) {

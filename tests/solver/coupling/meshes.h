@@ -50,6 +50,19 @@ inline mesh::TriangleMesh part_of(const mesh::TriangleMesh& mesh, const std::fun
   return part;
 }
 
+/// So many triangles around one vertex, at (0.5, 0.5).
+inline mesh::TriangleMesh fan(int triangles) {
+  mesh::TriangleMesh mesh;
+  mesh.position.push_back({0.5, 0.5});
+  for (std::int32_t k = 0; k < triangles; ++k) {
+    const double angle = 2 * std::numbers::pi / triangles * (k + base::uniform(-0.2, 0.2, 8, triangles, k));
+    mesh.position.push_back({0.5 + 0.3 * std::cos(angle), 0.5 + 0.3 * std::sin(angle)});
+    mesh.triangle.push_back({0, k + 1, (k + 1) % triangles + 1});
+  }
+  mesh.boundary = mesh::boundary_of(mesh.triangle, mesh.position, [](base::Vec2, base::Vec2) { return 0; });
+  return mesh;
+}
+
 /// Every triangle cut into four, and of each new vertex the two old ones between which it lies.
 struct Refined {
   mesh::TriangleMesh mesh;
