@@ -216,6 +216,17 @@ Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Di
   const std::size_t size = crew != nullptr ? 512 : std::max<std::size_t>(discs.size(), 1);
   std::vector<Rows> blocks((discs.size() + size - 1) / size);
   Deposit result;
+  if (!location.spare.empty()) {
+    result = std::move(location.spare.back());
+    location.spare.pop_back();
+  }
+  if (blocks.size() == 1) {
+    blocks[0].vertex = std::move(result.vertex);
+    blocks[0].volume = std::move(result.volume);
+  }
+  result.first.clear();
+  result.vertex.clear();
+  result.volume.clear();
   result.immersed.resize(discs.size());
   base::together(crew, [&](int me, int threads) {
     for (std::size_t b = me; b < blocks.size(); b += threads)

@@ -25,6 +25,14 @@
 
 namespace seapile::coupling {
 
+/// V_ij by grain, as a sparse matrix by rows.
+struct Deposit {
+  std::vector<std::int32_t> first;   ///< (grains + 1) where a grain's entries begin
+  std::vector<std::int32_t> vertex;  ///< (entries) each once within a grain
+  std::vector<double> volume;        ///< V_ij >= 0 [m2], (entries)
+  std::vector<double> immersed;      ///< V_i = sum_j V_ij, a grain's area in the mesh [m2], (grains)
+};
+
 /// What is kept from one call to the next. Belongs to the triangles of one mesh, whose vertices may move.
 struct Location {
   explicit Location(const mesh::TriangleMesh& mesh);
@@ -34,15 +42,8 @@ struct Location {
   std::vector<base::Vec2> measured;  ///< where the vertices were when the edges were measured; empty: never
   mesh::Buckets buckets;             ///< of the mesh with its vertices at `position`
   std::vector<base::Vec2> position;
+  std::vector<Deposit> spare;      ///< deposits that are no longer wanted, for their memory
   std::vector<std::int32_t> last;  ///< (grains) a triangle to look into first, or -1; for speed alone
-};
-
-/// V_ij by grain, as a sparse matrix by rows.
-struct Deposit {
-  std::vector<std::int32_t> first;   ///< (grains + 1) where a grain's entries begin
-  std::vector<std::int32_t> vertex;  ///< (entries) each once within a grain
-  std::vector<double> volume;        ///< V_ij >= 0 [m2], (entries)
-  std::vector<double> immersed;      ///< V_i = sum_j V_ij, a grain's area in the mesh [m2], (grains)
 };
 
 /// A disc that is nowhere, with a number that is not finite, deposits nothing. The result depends on mesh and discs

@@ -210,6 +210,8 @@ class WaterStep {
     water_.pressure = std::move(forces_.pressure);
     water_.velocity = std::move(velocity_);
     gather(water_, then_, discs_of(sim_));
+    water_.location.spare.push_back(std::move(now_.deposit));
+    water_.location.spare.push_back(std::move(then_.deposit));
   }
 
  private:

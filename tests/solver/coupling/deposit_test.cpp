@@ -59,6 +59,7 @@ void expect_equal(const Deposit& a, const Deposit& b) {
   EXPECT_EQ(a.first, b.first);
   EXPECT_EQ(a.vertex, b.vertex);
   EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.immersed, b.immersed);
 }
 
 /// Water around a pile that stands in from above, 0.3 m wide.
@@ -311,6 +312,12 @@ TEST(Deposit, DependsOnMeshAndDiscAlone) {
     expect_equal(deposit(mesh, location, discs, kernel), once);
     for (std::size_t i = 0; i < discs.size(); ++i) location.last[i] = static_cast<std::int32_t>(i % mesh.triangles());
     expect_equal(deposit(mesh, location, discs, kernel), once);
+
+    location.spare = {fresh(mesh, std::span(discs).first(500), kernel), once};  // for their memory alone
+    for (Deposit& spare : location.spare) std::ranges::fill(spare.volume, 7.0);
+    expect_equal(deposit(mesh, location, discs, kernel), once);
+    expect_equal(deposit(mesh, location, discs, kernel), once);
+    EXPECT_TRUE(location.spare.empty());
 
     TriangleMesh near = mesh;  // so little that triangles are looked for where they were
     for (Vec2& p : near.position) p = {p.x + 0.006 * std::sin(20 * p.y), p.y + 0.006 * std::cos(20 * p.x)};
