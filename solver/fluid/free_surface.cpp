@@ -166,10 +166,6 @@ double flux_through(const FreeSurface& surface, Geometry geometry, std::span<con
   return flux;
 }
 
-double volume_correction(const FreeSurface& surface, std::span<const base::Vec2> interstitial, double target) {
-  return (target - flux_through(surface, Geometry::planar, interstitial)) / width_of(surface);
-}
-
 std::vector<double> curvature(const FreeSurface& surface, Geometry geometry) {
   const std::size_t count = surface.x.size();
   // sin of the angle of slope, on the edges; kappa is its derivative.

@@ -72,10 +72,6 @@ std::vector<double> advanced_height(const FreeSurface& surface, std::span<const 
 /// Flux through the surface, the integral of v.n over it, n out of the fluid [m2/s; m3/s per radian when axisymmetric].
 double flux_through(const FreeSurface& surface, Geometry geometry, std::span<const base::Vec2> interstitial);
 
-/// What has to be added to v_y everywhere on the surface for the flux to be `target` (thesis (3.17), with the target
-/// that moving walls and openings set) [m/s].
-double volume_correction(const FreeSurface& surface, std::span<const base::Vec2> interstitial, double target);
-
 /// kappa at the surface's vertices by L2 projection (thesis (3.12), in the form that is exact for large slopes) [1/m].
 std::vector<double> curvature(const FreeSurface& surface, Geometry geometry);
 

@@ -96,17 +96,6 @@ TEST(FreeSurface, APinnedLipStays) {
   }
 }
 
-TEST(FreeSurface, TheVolumeCorrectionMakesTheFluxTheTarget) {
-  FreeSurface surface = surface_of(2, 30, bump);
-  std::vector<base::Vec2> v;
-  for (const double x : surface.x) v.push_back({std::cos(3 * x), std::sin(2 * x) + 0.3});
-  const double before = flux_through(surface, Geometry::planar, v);
-  ASSERT_GT(std::abs(before), 0.1);
-  const double lift = volume_correction(surface, v, 0.25);
-  for (base::Vec2& each : v) each.y += lift;
-  EXPECT_NEAR(flux_through(surface, Geometry::planar, v), 0.25, 1e-14);
-}
-
 TEST(FreeSurface, AnArchOfACircleHasItsCurvature) {
   // A circle of radius 2 over [-1, 1]: kappa = -1/2. Linear elements: the error of the edge's angles is of second
   // order.
