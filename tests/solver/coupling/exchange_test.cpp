@@ -235,6 +235,29 @@ TEST(Exchange, DragCoefficientsAreTheLawsAtTheGrains) {
     }
 }
 
+// Where so little of a grain is in the fluid that the porosity is 1 to the last digit.
+TEST(Exchange, GrainsThatBarelyDipInAreDraggedByLittle) {
+  Scene scene(5);
+  scene.discs.clear();
+  for (int i = 0; i < 500; ++i) {
+    const double r = uniform(0.011, 0.019, 9, 0, i);
+    scene.discs.push_back({uniform(0.1, 0.9, 9, 1, i), 1 + r - std::pow(10, -uniform(12.8, 15, 9, 2, i)), r, 0});
+  }
+  scene.velocities.assign(scene.discs.size(), {0.1, -0.2});
+  Location location(scene.flow.mesh);
+  scene.on = deposit(scene.flow.mesh, location, scene.discs);
+  scene.porosity = porosity(solid_volume(scene.on, scene.volume.size()), scene.volume, kLeast);
+  scene.flow.porosity = scene.porosity.phi;
+  const std::vector<double> gamma = drag_coefficients({}, scene.flow, scene.on, scene.discs, scene.velocities);
+  int wet = 0;
+  for (std::size_t i = 0; i < gamma.size(); ++i) {
+    EXPECT_GE(gamma[i], 0) << i;
+    EXPECT_LT(gamma[i], 1e-3) << i;
+    wet += gamma[i] > 0;
+  }
+  EXPECT_GT(wet, 100);
+}
+
 // Grains of one density that are immersed wholly answer as a continuum of that density: a force per volume f on them
 // makes them carry dt f/rho_p.
 TEST(Exchange, TheAnswerIsThatOfGrainsOfTheirDensity) {
