@@ -200,7 +200,7 @@ double follow(const TriangleMesh& mesh, Location& location) {
 }  // namespace
 
 Location::Location(const TriangleMesh& mesh)
-    : triangle(mesh.triangle), edges(mesh.triangle), measured(), buckets(mesh), position(mesh.position) {}
+    : triangle(mesh.triangle), edges(mesh.triangle), buckets(mesh), position(mesh.position) {}
 
 Deposit deposit(const TriangleMesh& mesh, Location& location, std::span<const Disc> discs, Kernel kernel,
                 base::Crew* crew, base::InstructionSet instructions) {

@@ -7,17 +7,18 @@
 #include "solver/coupling/drag_difelice1994.h"
 
 namespace seapile::coupling {
-namespace {
 
-double equivalent(double porosity) {
+double equivalent_porosity(double porosity) {
   const double solid = 1 - porosity;
   return 1 - 2 / std::sqrt(std::numbers::pi * std::numbers::sqrt3) * solid * std::sqrt(solid);
 }
 
+namespace {
+
 /// Calls f(phi_d of phi, gamma) with what the law says they are.
 auto with(const DragSpec& law, auto&& f) {
   const auto plane = [](double porosity) { return porosity; };
-  const auto spheres = [](double porosity) { return equivalent(porosity); };
+  const auto spheres = [](double porosity) { return equivalent_porosity(porosity); };
   const auto dallavalle = [](auto&&... a) { return dallavalle_drag(a...); };
   const auto di_felice = [](auto&&... a) { return di_felice_drag(a...); };
   if (law.closure == DragClosure::dallavalle)
@@ -26,8 +27,6 @@ auto with(const DragSpec& law, auto&& f) {
 }
 
 }  // namespace
-
-double equivalent_porosity(double porosity) { return equivalent(porosity); }
 
 double drag_coefficient(const DragSpec& law, const fluid::Properties& fluid, double diameter, double porosity,
                         double superficial_slip) {

@@ -3,8 +3,6 @@
 
 #include <array>
 
-#include "solver/base/instruction_set.h"
-
 namespace seapile::coupling {
 
 /// Rays from the vertex, of which `count` are; the others may be anything.
