@@ -36,10 +36,10 @@ base::Vec2 vector_of(const std::array<double, 2>& force) { return {force[0], for
 void feel_pile(Basin& basin, const fluid::TimeScheme& scheme) {
   const Domain& domain = basin.domain;
   const fluid::Flow& flow = basin.flow;
-  basin.tip_force =
-      vector_of(fluid::force_on(flow, scheme, domain.at_pile, domain.of_tip)) + on_grains_share(flow, mesh::kPileTip);
-  basin.sleeve_force = vector_of(fluid::force_on(flow, scheme, domain.at_pile, domain.of_sleeve)) +
-                       on_grains_share(flow, mesh::kPileSleeve);
+  const std::vector<double> lack = fluid::lack_of(flow, scheme, domain.at_pile);
+  basin.tip_force = vector_of(fluid::force_on(flow, lack, domain.of_tip)) + on_grains_share(flow, mesh::kPileTip);
+  basin.sleeve_force =
+      vector_of(fluid::force_on(flow, lack, domain.of_sleeve)) + on_grains_share(flow, mesh::kPileSleeve);
 }
 
 PorePressure pore_pressure(const Basin& basin) {

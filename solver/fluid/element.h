@@ -103,17 +103,32 @@ struct QuadraturePoint {
   double weight;             ///< of the area
 };
 /// Planar: exact to degree 2. Axisymmetric, where integrands have y or 1/y: exact to degree 4 (Strang and Fix 1973).
-std::span<const QuadraturePoint> quadrature(Geometry geometry);
+template <Geometry kGeometry>
+inline constexpr std::array kQuadrature = [] {
+  if constexpr (kGeometry == Geometry::planar) {
+    return std::array<QuadraturePoint, 3>{{{{2.0 / 3, 1.0 / 6, 1.0 / 6}, 1.0 / 3},
+                                           {{1.0 / 6, 2.0 / 3, 1.0 / 6}, 1.0 / 3},
+                                           {{1.0 / 6, 1.0 / 6, 2.0 / 3}, 1.0 / 3}}};
+  } else {
+    constexpr double a = 0.445948490915965, u = 0.223381589678011, b = 0.091576213509771, v = 0.109951743655322;
+    return std::array<QuadraturePoint, 6>{{{{1 - 2 * a, a, a}, u},
+                                           {{a, 1 - 2 * a, a}, u},
+                                           {{a, a, 1 - 2 * a}, u},
+                                           {{1 - 2 * b, b, b}, v},
+                                           {{b, 1 - 2 * b, b}, v},
+                                           {{b, b, 1 - 2 * b}, v}}};
+  }
+}();
 
 /// Residuals of a triangle's nine equations (momentum in x and y, mass; by vertex) [N/m, N/m, m2/s; times m when
 /// axisymmetric]. `x`, `y`: places of the vertices [m]; `u`: the unknowns. Scalar is Real, or a number with
 /// derivatives.
-template <class Real, class Scalar>
-std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const ElementInput<Real>& in,
-                                               const std::array<Scalar, 3>& x, const std::array<Scalar, 3>& y,
-                                               const std::array<Scalar, kUnknowns>& u) {
+template <Geometry kGeometry, class Real, class Scalar>
+std::array<Scalar, kUnknowns> element_residual_in(const Properties& fluid, const ElementInput<Real>& in,
+                                                  const std::array<Scalar, 3>& x, const std::array<Scalar, 3>& y,
+                                                  const std::array<Scalar, kUnknowns>& u) {
   const double rho = fluid.density, mu = fluid.viscosity;
-  const bool axisymmetric = fluid.geometry == Geometry::axisymmetric;
+  constexpr bool axisymmetric = kGeometry == Geometry::axisymmetric;
 
   // The gradients of the three linear functions, the same all over the triangle.
   const Scalar doubled = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
@@ -155,7 +170,7 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
 
   std::array<Scalar, kUnknowns> residual;
   residual.fill(0 * doubled);
-  for (const QuadraturePoint& point : quadrature(fluid.geometry)) {
+  for (const QuadraturePoint& point : kQuadrature<kGeometry>) {
     const std::array<double, 3>& N = point.at;
     const auto here = [&](const auto& f) {
       return std::remove_cvref_t<decltype(f(0))>(N[0] * f(0) + N[1] * f(1) + N[2] * f(2));
@@ -177,7 +192,7 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
     Scalar div_x = mu * (2 * dphi_dx * dvx_dx + dphi_dy * shear), div_y = mu * (dphi_dx * shear + 2 * dphi_dy * dvy_dy);
     Scalar continuity = here(at_vertex(in.porosity_rate)) - mesh_x * dphi_dx - mesh_y * dphi_dy + divergence;
     Scalar inverse_r = 0 * doubled, hoop = 0 * doubled;
-    if (axisymmetric) {
+    if constexpr (axisymmetric) {
       const Scalar r = here(at_vertex(y));
       volume = volume * r;
       inverse_r = 1 / r;
@@ -209,7 +224,7 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
       const Scalar along = along_x * bx[i] + along_y * by[i];
       residual[3 * i] += volume * (N[i] * body_x + sxx * bx[i] + txy * by[i] + along * Rx);
       Scalar radial = N[i] * body_y + txy * bx[i] + syy * by[i] + along * Ry;
-      if (axisymmetric) radial += N[i] * inverse_r * (hoop + dilation);
+      if constexpr (axisymmetric) radial += N[i] * inverse_r * (hoop + dilation);
       residual[3 * i + 1] += volume * radial;
       residual[3 * i + 2] += volume * (N[i] * continuity + phi * (bx[i] * Rx + by[i] * Ry) -
                                        (bx[i] * answer_x + by[i] * answer_y));
@@ -219,11 +234,21 @@ std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const El
   // Drag, lumped: N_i integrated over the triangle.
   for (int i = 0; i < 3; ++i) {
     Scalar weight = (1.0 / 6) * doubled;
-    if (axisymmetric) weight = weight * (0.25 * (y[0] + y[1] + y[2] + y[i]));
+    if constexpr (axisymmetric) weight = weight * (0.25 * (y[0] + y[1] + y[2] + y[i]));
     const Scalar lumped = in.drag[i] * weight;
     for (int c = 0; c < 2; ++c) residual[3 * i + c] += lumped * (u[3 * i + c] - in.carried[i][c]);
   }
   return residual;
+}
+
+/// Of the fluid's own geometry.
+template <class Real, class Scalar>
+std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const ElementInput<Real>& in,
+                                               const std::array<Scalar, 3>& x, const std::array<Scalar, 3>& y,
+                                               const std::array<Scalar, kUnknowns>& u) {
+  return fluid.geometry == Geometry::planar
+             ? element_residual_in<Geometry::planar, Real, Scalar>(fluid, in, x, y, u)
+             : element_residual_in<Geometry::axisymmetric, Real, Scalar>(fluid, in, x, y, u);
 }
 
 }  // namespace seapile::fluid

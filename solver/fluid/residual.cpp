@@ -99,18 +99,21 @@ void residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const dou
   close(flow, unknown, residual);
 }
 
-std::array<double, 2> force_on(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles,
-                               std::span<const std::uint8_t> of_body) {
+std::vector<double> lack_of(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles) {
   std::vector<double> residual(flow.unknown.size(), 0);
   for (const std::int32_t t : triangles) {
     const auto part = residual_of(flow, scheme, flow.unknown, static_cast<std::size_t>(t));
     for (int row = 0; row < kUnknowns; ++row) residual[3 * flow.mesh.triangle[t][row / 3] + row % 3] += part[row];
   }
   add_boundary(flow, flow.unknown, residual);
+  return residual;
+}
+
+std::array<double, 2> force_on(const Flow& flow, std::span<const double> lack, std::span<const std::uint8_t> of_body) {
   std::array<double, 2> force{};
   for (std::size_t v = 0; v < of_body.size(); ++v)
     for (int c = 0; c < 2; ++c)
-      if (of_body[v] && flow.held[3 * v + c]) force[c] -= residual[3 * v + c];
+      if (of_body[v] && flow.held[3 * v + c]) force[c] -= lack[3 * v + c];
   return force;
 }
 

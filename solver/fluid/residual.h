@@ -51,10 +51,13 @@ void residual_of(const Flow& flow, const PackedFlow& packed, std::span<const dou
 void residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const double> unknown,
                  std::span<double> residual);
 
-/// Force of the fluid on a body whose vertices hold their velocities: what their momentum equations lack [N/m; per radian
-/// when axisymmetric]. Exact for the scheme: it is the traction for which the flow would be what it is. `triangles`: those
-/// that touch the body; `of_body`: 1 for its vertices, (vertices).
-std::array<double, 2> force_on(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles,
-                               std::span<const std::uint8_t> of_body);
+/// What the equations of the triangles' vertices lack, also where values are held, (3 vertices); other vertices are
+/// none of its business.
+std::vector<double> lack_of(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles);
+
+/// Force of the fluid on a body whose vertices hold their velocities: what their momentum equations lack [N/m; per
+/// radian when axisymmetric]. Exact for the scheme: it is the traction for which the flow would be what it is. `lack`:
+/// of all triangles that touch the body; `of_body`: 1 for its vertices, (vertices).
+std::array<double, 2> force_on(const Flow& flow, std::span<const double> lack, std::span<const std::uint8_t> of_body);
 
 }  // namespace seapile::fluid

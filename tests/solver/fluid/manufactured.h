@@ -168,7 +168,7 @@ inline Errors errors_of(const Flow& flow, const Manufactured& exact, double time
     const auto& p = flow.mesh.position;
     const double area = 0.5 * mesh::doubled_area(p[t[0]], p[t[1]], p[t[2]]);
     const bool below = p[t[0]].y == 0 || p[t[1]].y == 0 || p[t[2]].y == 0;
-    for (const QuadraturePoint& point : quadrature(Geometry::axisymmetric)) {
+    for (const QuadraturePoint& point : kQuadrature<Geometry::axisymmetric>) {
       double x = 0, y = 0, u[3] = {};
       for (int i = 0; i < 3; ++i) {
         x += point.at[i] * p[t[i]].x;
