@@ -12,15 +12,17 @@ using fluid::kPressure;
 using fluid::kVelocityX;
 using fluid::kVelocityY;
 
-/// Four fields at the vertices, side by side: a grain's sums read them in one go.
-using Four = std::array<double, 4>;
+/// Fields at the vertices, side by side: a grain's sums read them in one go.
+template <std::size_t kFields>
+using Fields = std::array<double, kFields>;
 
 /// sum_j V_ij f_j of a grain.
-Four integral(const Deposit& deposit, std::size_t grain, const std::vector<Four>& field) {
-  Four sum{};
+template <std::size_t kFields>
+Fields<kFields> integral(const Deposit& deposit, std::size_t grain, const std::vector<Fields<kFields>>& field) {
+  Fields<kFields> sum{};
   for (std::int32_t k = deposit.first[grain]; k < deposit.first[grain + 1]; ++k) {
-    const Four& at = field[deposit.vertex[k]];
-    for (int c = 0; c < 4; ++c) sum[c] += deposit.volume[k] * at[c];
+    const Fields<kFields>& at = field[deposit.vertex[k]];
+    for (std::size_t c = 0; c < kFields; ++c) sum[c] += deposit.volume[k] * at[c];
   }
   return sum;
 }
@@ -48,100 +50,112 @@ std::vector<base::Vec2> pressure_gradients(const fluid::Flow& flow, std::span<co
 
 }  // namespace
 
-void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order) {
-  struct Level {
-    std::vector<double> volume, solid;
-  };
-  const auto level_of = [&](const std::vector<base::Vec2>& position, const std::vector<double>& porosity) {
-    Level level{vertex_volume(flow.mesh.triangle, position), {}};
-    for (std::size_t v = 0; v < porosity.size(); ++v) level.solid.push_back(level.volume[v] * (1 - porosity[v]));
-    return level;
-  };
-  const Level now = level_of(flow.mesh.position, flow.porosity);
-  const Level before = level_of(past.level[0].position, past.level[0].porosity);
+void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order,
+                       const VertexVolumes& volume) {
   const bool second = order == fluid::TimeOrder::second && past.level.size() == 2;
-  const Level older = second ? level_of(past.level[1].position, past.level[1].porosity) : Level{};
+  const std::vector<double> older =
+      second ? vertex_volume(flow.mesh.triangle, past.level[1].position) : std::vector<double>{};
+  const auto& [now, before] = volume;
   const double inverse = 1 / past.dt;
   for (std::size_t v = 0; v < flow.porosity.size(); ++v) {
-    double grown = now.volume[v] - before.volume[v], filled = now.solid[v] - before.solid[v];
+    const double solid = before[v] * (1 - past.level[0].porosity[v]);
+    double grown = now[v] - before[v], filled = now[v] * (1 - flow.porosity[v]) - solid;
     if (second) {
-      grown = 1.5 * grown - 0.5 * (before.volume[v] - older.volume[v]);
-      filled = 1.5 * filled - 0.5 * (before.solid[v] - older.solid[v]);
+      grown = 1.5 * grown - 0.5 * (before[v] - older[v]);
+      filled = 1.5 * filled - 0.5 * (solid - older[v] * (1 - past.level[1].porosity[v]));
     }
-    flow.porosity_rate[v] = inverse * ((1 - flow.porosity[v]) * grown - filled) / now.volume[v];
+    flow.porosity_rate[v] = inverse * ((1 - flow.porosity[v]) * grown - filled) / now[v];
   }
 }
 
-std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Flow& flow, const Deposit& deposit,
-                                      std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity) {
-  std::vector<Four> field(flow.mesh.vertices());
+Surroundings surroundings(const fluid::Flow& flow, const Deposit& deposit) {
+  std::vector<Fields<3>> field(flow.mesh.vertices());
   for (std::size_t v = 0; v < field.size(); ++v) {
     const base::Vec2 between = interstitial(flow, v);
-    field[v] = {flow.porosity[v], between.x, between.y, 0};
+    field[v] = {between.x, between.y, flow.porosity[v]};
   }
-  const std::size_t grains = velocity.size();
-  std::vector<double> diameter(grains), porosity(grains), slip(grains), gamma(grains);
+  const std::size_t grains = deposit.immersed.size();
+  Surroundings around{std::vector<double>(grains, 1), std::vector<base::Vec2>(grains)};
   for (std::size_t i = 0; i < grains; ++i) {
-    const Four sum = integral(deposit, i, field);
-    // Grains that are not in the fluid slip as if they were alone in it.
-    const bool inside = deposit.immersed[i] > 0;
-    const double per_volume = inside ? 1 / deposit.immersed[i] : 0;
-    diameter[i] = 2 * disc[i].radius;
-    porosity[i] = inside ? sum[0] * per_volume : 1;
-    const base::Vec2 relative = base::Vec2{sum[1] * per_volume, sum[2] * per_volume} - velocity[i];
-    slip[i] = dot(relative, relative);
+    if (!(deposit.immersed[i] > 0)) continue;
+    const auto [x, y, porosity] = integral(deposit, i, field);
+    const double per_volume = 1 / deposit.immersed[i];
+    around.porosity[i] = porosity * per_volume;
+    around.velocity[i] = {x * per_volume, y * per_volume};
   }
-  for (std::size_t i = 0; i < grains; ++i) slip[i] = porosity[i] * std::sqrt(slip[i]);
-  drag_coefficients(law, flow.fluid, diameter, porosity, slip, gamma);
+  return around;
+}
+
+std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Properties& fluid, const Surroundings& around,
+                                      std::span<const double> immersed, std::span<const grains::Disc> disc,
+                                      std::span<const base::Vec2> velocity) {
+  const std::size_t grains = velocity.size();
+  std::vector<double> diameter(grains), slip(grains), gamma(grains);
+  for (std::size_t i = 0; i < grains; ++i) {
+    diameter[i] = 2 * disc[i].radius;
+    slip[i] = around.porosity[i] * norm(around.velocity[i] - velocity[i]);
+  }
+  drag_coefficients(law, fluid, diameter, around.porosity, slip, gamma);
   for (std::size_t i = 0; i < grains; ++i)
-    gamma[i] *= std::min(1.0, deposit.immersed[i] / (std::numbers::pi * disc[i].radius * disc[i].radius));
+    gamma[i] *= std::min(1.0, immersed[i] / (std::numbers::pi * disc[i].radius * disc[i].radius));
   return gamma;
 }
 
-void put_grains(fluid::Flow& flow, const Deposit& deposit, std::span<const double> vertex_volume,
-                std::span<const double> kept, const Suspended& grains, double dt) {
-  // What a grain adds to: B_j, momentum x and y, volume moved per force by pressure and by drag; a cache line.
-  struct alignas(64) Sums {
-    std::array<double, 6> of;
-  };
-  std::vector<Sums> sums(flow.mesh.vertices());
+std::vector<Load> load(const Deposit& deposit, const Suspended& grains, double dt, std::size_t vertices) {
+  std::vector<Load> sums(vertices);
   for (std::size_t i = 0; i < grains.mass.size(); ++i) {
     const double volume = deposit.immersed[i];
     if (!(volume > 0)) continue;
     const double gamma = grains.drag[i] / volume, moves = dt * volume / grains.mass[i];
     const base::Vec2 momentum = gamma * grains.velocity[i];
-    const std::array<double, 6> each = {gamma, momentum.x, momentum.y, moves, moves * gamma, 0};
     for (std::int32_t k = deposit.first[i]; k < deposit.first[i + 1]; ++k) {
-      std::array<double, 6>& sum = sums[deposit.vertex[k]].of;
-      for (int c = 0; c < 6; ++c) sum[c] += deposit.volume[k] * each[c];
+      Load& sum = sums[deposit.vertex[k]];
+      const double share = deposit.volume[k];
+      sum.solid += share;
+      sum.resistance += share * gamma;
+      sum.momentum_x += share * momentum.x;
+      sum.momentum_y += share * momentum.y;
+      sum.moved += share * moves;
+      sum.answered += share * (moves * gamma);
     }
   }
-  for (std::size_t v = 0; v < sums.size(); ++v) {
-    const auto& [resistance, momentum_x, momentum_y, moved, response, unused] = sums[v].of;
+  return sums;
+}
+
+void put_grains(fluid::Flow& flow, std::span<const Load> load, std::span<const double> vertex_volume,
+                std::span<const double> kept) {
+  for (std::size_t v = 0; v < load.size(); ++v) {
+    const Load& sum = load[v];
     const double per_volume = 1 / vertex_volume[v], per_fluid = per_volume / flow.porosity[v];
-    flow.drag[v] = resistance * per_fluid;
-    flow.carried[v] =
-        resistance > 0 ? (flow.porosity[v] / resistance) * base::Vec2{momentum_x, momentum_y} : base::Vec2{};
-    flow.mobility[v] = moved * kept[v] * per_volume;
-    flow.response[v] = response * per_fluid;
+    flow.drag[v] = sum.resistance * per_fluid;
+    flow.carried[v] = sum.resistance > 0
+                          ? (flow.porosity[v] / sum.resistance) * base::Vec2{sum.momentum_x, sum.momentum_y}
+                          : base::Vec2{};
+    flow.mobility[v] = sum.moved * kept[v] * per_volume;
+    flow.response[v] = sum.answered * per_fluid;
   }
 }
 
 Forces forces_on(const Deposit& deposit, const fluid::Flow& flow, std::span<const double> vertex_volume,
                  std::span<const double> kept, const Suspended& grains) {
   const std::vector<base::Vec2> gradient = pressure_gradients(flow, vertex_volume);
-  std::vector<Four> field(flow.mesh.vertices());
+  std::vector<Fields<5>> field(flow.mesh.vertices());
   for (std::size_t v = 0; v < field.size(); ++v) {
     const base::Vec2 between = interstitial(flow, v), borne = kept[v] * gradient[v];
-    field[v] = {between.x, between.y, borne.x, borne.y};
+    field[v] = {between.x, between.y, flow.porosity[v], borne.x, borne.y};
   }
-  Forces forces{std::vector<base::Vec2>(grains.mass.size()), std::vector<base::Vec2>(grains.mass.size())};
-  for (std::size_t i = 0; i < grains.mass.size(); ++i) {
+  const std::size_t count = grains.mass.size();
+  Forces forces{std::vector<base::Vec2>(count),
+                std::vector<base::Vec2>(count),
+                {std::vector<double>(count, 1), std::vector<base::Vec2>(count)}};
+  for (std::size_t i = 0; i < count; ++i) {
     if (!(deposit.immersed[i] > 0)) continue;
-    const Four sum = integral(deposit, i, field);
+    const auto [x, y, porosity, borne_x, borne_y] = integral(deposit, i, field);
     const double per_volume = 1 / deposit.immersed[i];
-    forces.drag[i] = grains.drag[i] * (base::Vec2{sum[0] * per_volume, sum[1] * per_volume} - grains.velocity[i]);
-    forces.pressure[i] = {-sum[2], -sum[3]};
+    forces.around.porosity[i] = porosity * per_volume;
+    forces.around.velocity[i] = {x * per_volume, y * per_volume};
+    forces.drag[i] = grains.drag[i] * (forces.around.velocity[i] - grains.velocity[i]);
+    forces.pressure[i] = {-borne_x, -borne_y};
   }
   return forces;
 }

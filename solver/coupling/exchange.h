@@ -45,20 +45,44 @@ struct Suspended {
   std::span<const base::Vec2> velocity;  ///< v* [m/s]
 };
 
-/// Sets flow.porosity_rate at the flow's porosity and places, and those of `past`.
-void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order);
+/// What the grains bring to a vertex, summed up in their order: a cache line.
+struct alignas(64) Load {
+  double solid = 0;                       ///< S_j [m2]
+  double resistance = 0;                  ///< B_j [kg/m/s]
+  double momentum_x = 0, momentum_y = 0;  ///< sum_i gamma_e w_ij v*_i [N/m]
+  double moved = 0;                       ///< dt sum_i (V_i/m) V_ij, by pressure [m5 s/kg]
+  double answered = 0;                    ///< dt sum_i (V_i/m) gamma_e w_ij, by drag [m2]
+};
+/// Of each vertex.
+std::vector<Load> load(const Deposit& deposit, const Suspended& grains, double dt, std::size_t vertices);
 
-/// gamma of each grain [kg/m/s], for the flow's velocities and porosities as they are; of its share in the fluid.
-std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Flow& flow, const Deposit& deposit,
-                                      std::span<const grains::Disc> disc, std::span<const base::Vec2> velocity);
+/// m_j now and at the level before [m2], (vertices).
+struct VertexVolumes {
+  std::span<const double> now, before;
+};
+/// Sets flow.porosity_rate at the flow's porosity and places, and those of `past`.
+void set_porosity_rate(fluid::Flow& flow, const fluid::Past& past, fluid::TimeOrder order, const VertexVolumes& volume);
+
+/// The fluid where the grains are, (grains): means over a grain's share at the vertices.
+struct Surroundings {
+  std::vector<double> porosity;      ///< phi; 1 out of the fluid [-]
+  std::vector<base::Vec2> velocity;  ///< v_f; 0 out of the fluid [m/s]
+};
+Surroundings surroundings(const fluid::Flow& flow, const Deposit& deposit);
+
+/// gamma of each grain [kg/m/s], of its share in the fluid. `immersed`: V_i; `velocity`: of the grains.
+std::vector<double> drag_coefficients(const DragSpec& law, const fluid::Properties& fluid, const Surroundings& around,
+                                      std::span<const double> immersed, std::span<const grains::Disc> disc,
+                                      std::span<const base::Vec2> velocity);
 
 /// Sets the flow's drag, carried, mobility and response. `kept`: of the porosity.
-void put_grains(fluid::Flow& flow, const Deposit& deposit, std::span<const double> vertex_volume,
-                std::span<const double> kept, const Suspended& grains, double dt);
+void put_grains(fluid::Flow& flow, std::span<const Load> load, std::span<const double> vertex_volume,
+                std::span<const double> kept);
 
 /// What the flow, solved, does to the grains.
 struct Forces {
   std::vector<base::Vec2> drag, pressure;  ///< [N/m], (grains)
+  Surroundings around;                     ///< found on the way
 };
 Forces forces_on(const Deposit& deposit, const fluid::Flow& flow, std::span<const double> vertex_volume,
                  std::span<const double> kept, const Suspended& grains);

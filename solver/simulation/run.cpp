@@ -76,7 +76,7 @@ std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
   if (scene.basin) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 1}, {"basin", 1}};
   std::vector<NumericsVersion> versions = {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
   if (scene.fluid)
-    versions.insert(versions.end(), {{"mesh", 1}, {"fluid", 2}, {"free_surface", 1}, {"basin", 1}, {"coupling", 3}});
+    versions.insert(versions.end(), {{"mesh", 1}, {"fluid", 2}, {"free_surface", 1}, {"basin", 1}, {"coupling", 4}});
   return versions;
 }
 

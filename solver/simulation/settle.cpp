@@ -17,15 +17,7 @@ constexpr double kRestBaseError = 1e-3;  // of the weight
 
 double rms_speed(const Simulation& sim) {
   double sum = 0;
-  std::visit(
-      [&](const auto& system) {
-        for (std::size_t i = 0; i < sim.grains.count(); ++i) {
-          const auto& m = system.motion(static_cast<std::int32_t>(i));
-          const double vx = static_cast<double>(m.vx), vy = static_cast<double>(m.vy);
-          sum += vx * vx + vy * vy;
-        }
-      },
-      sim.contacts);
+  for (const base::Vec2 v : velocities_of(sim)) sum += dot(v, v);
   return std::sqrt(sum / static_cast<double>(sim.grains.count()));
 }
 

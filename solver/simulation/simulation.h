@@ -60,4 +60,7 @@ struct Simulation {
   base::Profile profile;
 };
 
+/// Velocities of the grains [m/s], (grains).
+std::vector<base::Vec2> velocities_of(const Simulation& simulation);
+
 }  // namespace seapile::simulation

@@ -10,7 +10,8 @@
 #include "solver/basin/basin.h"
 #include "solver/basin/pile_force.h"
 #include "solver/coupling/coupling_spec.h"
-#include "solver/coupling/deposit.h"
+#include "solver/coupling/exchange.h"
+#include "solver/coupling/on_mesh.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/flow_record.h"
 
@@ -25,7 +26,6 @@ struct WaterGathering {
   double face = 0, shoulder = 0, sleeve = 0;        ///< [Pa]
   double lowest_porosity = 1;                       ///< smallest [-]
   double clipped_volume = 0;                        ///< largest [m2]
-  double immersed = 1;                              ///< at the last step [-]
 };
 
 /// Everything that a saturated scene adds to a dry one.
@@ -33,6 +33,9 @@ struct Water {
   basin::Basin basin;
   coupling::CouplingSpec coupling;
   coupling::Location location;
+  /// The grains on the mesh as it is, where the last step of the fluid expected them to be by now.
+  coupling::OnMesh expected = {};
+  coupling::Surroundings around = {};  ///< of those, in the flow as it is
   int grain_steps = 1;  ///< of the grains in a step of the fluid
   double buoyancy = 0;  ///< rho/rho_p g, by which the weight of immersed grains is less [m/s2]
 

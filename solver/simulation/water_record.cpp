@@ -1,5 +1,6 @@
 // A record of the water of a saturated drive: the basin's, and what was gathered on the grains since the last one.
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "solver/simulation/basin_state.h"
@@ -20,7 +21,6 @@ FlowRecord take_flow_record(Simulation& sim) {
     record.grain_force_y = share * g.grain_force.y;
     record.lowest_porosity = g.lowest_porosity;
     record.clipped_volume = g.clipped_volume;
-    record.immersed = g.immersed;
     if (sim.pile) {
       record.tip_force_x = share * g.tip_force.x;
       record.tip_force_y = share * g.tip_force.y;
@@ -31,6 +31,12 @@ FlowRecord take_flow_record(Simulation& sim) {
       if (g.sleeve_steps > 0) record.sleeve_pressure = g.sleeve / static_cast<double>(g.sleeve_steps);
     }
   }
+  double in_mesh = 0, all = 0;
+  for (std::size_t i = 0; i < water.expected.disc.size(); ++i) {
+    in_mesh += water.expected.deposit.immersed[i];
+    all += std::numbers::pi * water.expected.disc[i].radius * water.expected.disc[i].radius;
+  }
+  record.immersed = in_mesh / all;
   double shortest = 1e300, largest = 0;
   for (const auto& t : water.basin.flow.mesh.triangle)
     for (int k = 0; k < 3; ++k)

@@ -59,7 +59,7 @@ struct Scene {
       drags.push_back(gamma * mass / (mass + kStep * gamma));
     }
     grains = {masses, drags, velocities};
-    put_grains(flow, on, volume, porosity.kept, grains, kStep);
+    put_grains(flow, load(on, grains, kStep, volume.size()), volume, porosity.kept);
   }
   Vec2 u(std::size_t v) const { return {flow.unknown[3 * v], flow.unknown[3 * v + 1]}; }
   Forces forces() const { return forces_on(on, flow, volume, porosity.kept, grains); }
@@ -211,8 +211,8 @@ TEST(Exchange, DragCoefficientsAreTheLawsAtTheGrains) {
   for (const auto& [seed, kernel, least] : kCases)
     for (const DragSpec& law : {DragSpec{}, DragSpec{DragClosure::di_felice, DragPorosity::plane}}) {
       const Scene scene(seed, kernel, least);
-      const std::vector<double> gamma =
-          drag_coefficients(law, scene.flow, scene.on, scene.discs, scene.grains.velocity);
+      const std::vector<double> gamma = drag_coefficients(law, scene.flow.fluid, surroundings(scene.flow, scene.on),
+                                                          scene.on.immersed, scene.discs, scene.grains.velocity);
       for (std::size_t i = 0; i < scene.discs.size(); ++i) {
         const std::vector<double> row = scene.row(i);
         double all = 0, phi = 0;
@@ -235,6 +235,18 @@ TEST(Exchange, DragCoefficientsAreTheLawsAtTheGrains) {
     }
 }
 
+TEST(Exchange, WhatIsFoundOnTheWayIsWhatIsFoundByItself) {
+  for (const auto& [seed, kernel, least] : kCases) {
+    const Scene scene(seed, kernel, least);
+    const Surroundings around = surroundings(scene.flow, scene.on), on_the_way = scene.forces().around;
+    EXPECT_EQ(on_the_way.porosity, around.porosity);
+    EXPECT_EQ(on_the_way.velocity, around.velocity);
+    std::vector<double> solid;
+    for (const Load& at : load(scene.on, scene.grains, kStep, scene.volume.size())) solid.push_back(at.solid);
+    EXPECT_EQ(solid, solid_volume(scene.on, scene.volume.size()));
+  }
+}
+
 // Where so little of a grain is in the fluid that the porosity is 1 to the last digit.
 TEST(Exchange, GrainsThatBarelyDipInAreDraggedByLittle) {
   Scene scene(5);
@@ -248,7 +260,8 @@ TEST(Exchange, GrainsThatBarelyDipInAreDraggedByLittle) {
   scene.on = deposit(scene.flow.mesh, location, scene.discs);
   scene.porosity = porosity(solid_volume(scene.on, scene.volume.size()), scene.volume, kLeast);
   scene.flow.porosity = scene.porosity.phi;
-  const std::vector<double> gamma = drag_coefficients({}, scene.flow, scene.on, scene.discs, scene.velocities);
+  const std::vector<double> gamma = drag_coefficients({}, scene.flow.fluid, surroundings(scene.flow, scene.on),
+                                                      scene.on.immersed, scene.discs, scene.velocities);
   int wet = 0;
   for (std::size_t i = 0; i < gamma.size(); ++i) {
     EXPECT_GE(gamma[i], 0) << i;
@@ -272,7 +285,7 @@ TEST(Exchange, TheAnswerIsThatOfGrainsOfTheirDensity) {
   scene.drags.resize(scene.discs.size());
   scene.velocities.resize(scene.discs.size());
   scene.grains = {scene.masses, scene.drags, scene.velocities};
-  put_grains(scene.flow, scene.on, scene.volume, scene.porosity.kept, scene.grains, kStep);
+  put_grains(scene.flow, load(scene.on, scene.grains, kStep, scene.volume.size()), scene.volume, scene.porosity.kept);
   ASSERT_GT(scene.porosity.clipped, 0);
   for (std::size_t v = 0; v < scene.volume.size(); ++v) {
     EXPECT_NEAR(scene.flow.mobility[v], kStep / kGrainDensity * (1 - scene.flow.porosity[v]),
@@ -309,8 +322,8 @@ TEST(Exchange, NoVolumeOfTheMixtureIsLostOnAMeshThatMovesUpAndDown) {
     }
     if (order == fluid::TimeOrder::first) past.level.pop_back();
     set_rates(flow, past, order);
-    set_porosity_rate(flow, past, order);
-    put_grains(flow, scene.on, scene.volume, scene.porosity.kept, scene.grains, kStep);
+    set_porosity_rate(flow, past, order, {scene.volume, vertex_volume(flow.mesh.triangle, past.level[0].position)});
+    put_grains(flow, load(scene.on, scene.grains, kStep, scene.volume.size()), scene.volume, scene.porosity.kept);
 
     const double a = fluid_volume[0], b = fluid_volume[1], c = fluid_volume[2],
                  growth = (order == fluid::TimeOrder::first ? a - b : (3 * a - 4 * b + c) / 2) / kStep;
