@@ -85,7 +85,8 @@ void refresh(ContactBlock<Real>* blocks, std::uint8_t* active, double* wake, std
     }
 
     // gap = (distance^2 - r^2) / (distance + r); may it close in this step at twice the present relative speed?
-    Real slack = 1, least = 1;
+    const V never = zero + std::numeric_limits<Real>::max();
+    Real slack = 1, least = std::numeric_limits<Real>::max();
     for (int k = 0; k < kLanes; k += W) {
       V vxi, vyi, ui, mi, vxj, vyj, uj, mj;
       gather<Real>(motions, block.i + k, vxi, vyi, ui, mi);
@@ -100,7 +101,7 @@ void refresh(ContactBlock<Real>* blocks, std::uint8_t* active, double* wake, std
       const V reach = larger(wx, V(zero - wx)) + larger(wy, V(zero - wy));
       const auto filled = load<V>(block.mass + k) > zero;
       const V room = filled ? V(gap - margin - time * reach) : one;
-      const V present = filled ? gap : one;
+      const V present = filled ? gap : never;
       for (int q = 0; q < W; ++q) {
         slack = room[q] < slack ? room[q] : slack;
         least = present[q] < least ? present[q] : least;

@@ -2,6 +2,7 @@
 #include <immintrin.h>
 
 #include <cmath>
+#include <limits>
 
 #include "solver/grains/contact_kernels.h"
 #include "solver/grains/contact_kernel_tables.h"

@@ -1,6 +1,7 @@
 // The contact kernels for any processor (16-byte vectors).
 
 #include <cmath>
+#include <limits>
 
 #include "solver/grains/contact_kernels.h"
 #include "solver/grains/contact_kernel_tables.h"

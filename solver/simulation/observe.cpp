@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "solver/pile/pile.h"
+#include "solver/simulation/headline.h"
 #include "solver/simulation/water_metrics.h"
 
 namespace seapile::simulation {
@@ -193,25 +194,23 @@ TipMeasures measures_of(const Simulation& sim, const ForceWindow& window, const 
 
 std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<const FlowRecord> flow_records,
                                   const pile::PileSpec& pile) {
-  constexpr double kFrom = 0.2, kTo = 1.2, kBin = 0.05;  // headline and depth bin: docs/formulation.md 3
+  constexpr double kBin = 0.05;  // [m]: docs/formulation.md 3
   std::vector<Metric> metrics;
   const auto add = [&](std::string name, double value, const char* unit, const char* meaning) {
     if (std::isfinite(value)) metrics.push_back({std::move(name), value, unit, meaning});
   };
   const auto tip = [](const Record& r) { return r.tip_resistance; };
-  // The last record of a run to 1.2 m may end a hair beyond it.
-  const double to = kTo + 1e-3;
-  const double mean = mean_over_depth(records, kFrom, to, tip);
+  const double mean = mean_over_depth(records, kHeadlineFrom, kHeadlineEnd, tip);
   add("tip_resistance_mean", mean, "Pa", "headline: mean q_c over 0.2-1.2 m, as far as reached");
   add("tip_force_mean", mean * 2 * pile.radius, "N/m", "mean vertical force on the tip over 0.2-1.2 m");
-  add("pile_force_mean", mean_over_depth(records, 0, to, [](const Record& r) { return r.tip_force_y + r.sleeve_force_y; }),
+  add("pile_force_mean",
+      mean_over_depth(records, 0, kHeadlineEnd, [](const Record& r) { return r.tip_force_y + r.sleeve_force_y; }),
       "N/m", "mean vertical force on tip and sleeve over 0-1.2 m");
 
   // Fluctuation: standard deviation of q_c about its straight line over depth, records weighted by their travel.
   double w = 0, sd = 0, sq = 0;
-  const auto in_window = [&](const Record& r) { return r.depth >= kFrom && r.depth < to; };
   for (const Record& r : records)
-    if (in_window(r)) {
+    if (is_in_headline(r)) {
       const double t = std::abs(r.speed) * r.span;
       w += t, sd += t * r.depth, sq += t * r.tip_resistance;
     }
@@ -219,14 +218,14 @@ std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<con
     const double d0 = sd / w, q0 = sq / w;
     double dd = 0, dq = 0, rest = 0;
     for (const Record& r : records)
-      if (in_window(r)) {
+      if (is_in_headline(r)) {
         const double t = std::abs(r.speed) * r.span;
         dd += t * (r.depth - d0) * (r.depth - d0);
         dq += t * (r.depth - d0) * (r.tip_resistance - q0);
       }
     const double slope = dd > 0 ? dq / dd : 0;
     for (const Record& r : records)
-      if (in_window(r)) {
+      if (is_in_headline(r)) {
         const double e = r.tip_resistance - q0 - slope * (r.depth - d0);
         rest += std::abs(r.speed) * r.span * e * e;
       }
@@ -249,7 +248,7 @@ std::vector<Metric> drive_metrics(std::span<const Record> records, std::span<con
     add("dissipation", records.back().dissipation, "J/m", "energy taken out by the contacts, summed per contact");
     add("energy_error", energy_error(records, flow_records), "-", "energy that the balance lacks, share of the pile's work");
   }
-  for (int k = 0; k * kBin < kTo - 1e-9; ++k)
+  for (int k = 0; k * kBin < kHeadlineTo - 1e-9; ++k)
     add("tip_resistance_bin_" + depth_text(k * kBin), mean_over_depth(records, k * kBin, (k + 1) * kBin, tip), "Pa",
         "mean q_c over a depth bin of 0.05 m from this depth");
   return metrics;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/simulation/headline.h"
+
 namespace seapile::simulation {
 namespace {
-
-constexpr double kFrom = 0.2, kTo = 1.2 + 1e-3;  // headline: docs/formulation.md 3
 
 /// Mean over the records' time of a column, where it is a number and the depth lies in the headline's range; NaN where
 /// there is none.
@@ -14,7 +14,7 @@ double mean_of(std::span<const Record> records, std::span<const FlowRecord> flow
   double sum = 0, time = 0;
   for (std::size_t k = 0; k < flow.size(); ++k) {
     const double value = flow[k].*column;
-    if (records[k].depth < kFrom || records[k].depth >= kTo || !std::isfinite(value)) continue;
+    if (!is_in_headline(records[k]) || !std::isfinite(value)) continue;
     sum += records[k].span * value;
     time += records[k].span;
   }
@@ -27,7 +27,7 @@ double deviation_of(std::span<const Record> records, std::span<const FlowRecord>
   double sum = 0, time = 0;
   for (std::size_t k = 0; k < flow.size(); ++k) {
     const double value = flow[k].*column;
-    if (records[k].depth < kFrom || records[k].depth >= kTo || !std::isfinite(value)) continue;
+    if (!is_in_headline(records[k]) || !std::isfinite(value)) continue;
     sum += records[k].span * (value - mean) * (value - mean);
     time += records[k].span;
   }
