@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "solver/grains/contact_kernels.h"
 
@@ -33,7 +34,7 @@ void refresh(ContactBlock<Real>* blocks, std::uint8_t* active, double* wake, std
       continue;
     }
     active[b] = 0;
-    Real least = 1;
+    Real least = std::numeric_limits<Real>::max();
     for (int lane = 0; lane < kLanes; ++lane) {
       const Disc &di = disc[body_at(block.i[lane])], &dj = disc[body_at(block.j[lane])];
       const double x = dj.x - di.x, y = dj.y - di.y, reach = di.radius + dj.radius, square = x * x + y * y;
