@@ -21,6 +21,7 @@
 //
 // The rate of phi at the moving vertices is made of volumes, so that none is lost whatever the mesh does:
 //   m_j dphi_j/dt = (1 - phi_j) D m_j - D S_j,   S_j = sum_i V_ij,   D the difference of the scheme in time.
+// At the start of a step S_j is that of where the grains were expected, put right (moved_solid.h).
 // Areas of triangles whose vertices move vertically are linear in time, and the mesh velocity's divergence is D m_j.
 //
 // First order in time. Neglected: added mass beyond what the pressure of the averaged flow gives, lift, torque.

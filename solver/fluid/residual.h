@@ -51,8 +51,8 @@ void residual_of(const Flow& flow, const PackedFlow& packed, std::span<const dou
 void residual_of(const Flow& flow, const TimeScheme& scheme, std::span<const double> unknown,
                  std::span<double> residual);
 
-/// What the equations of the triangles' vertices lack, also where values are held, (3 vertices); other vertices are
-/// none of its business.
+/// What the equations lack, also where values are held, (3 vertices): of the triangles given and of all boundary edges,
+/// so that it is whole at vertices of which no other triangle is one.
 std::vector<double> lack_of(const Flow& flow, const TimeScheme& scheme, std::span<const std::int32_t> triangles);
 
 /// Force of the fluid on a body whose vertices hold their velocities: what their momentum equations lack [N/m; per

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "solver/simulation/build.h"
@@ -142,7 +143,6 @@ TEST(SaturatedRun, MomentumOfTheGrainsComesFromWeightWaterWallsAndPile) {
   }
 }
 
-// The water past which the pile goes at 0.4 m/s, in steps of 1 ms, on edges of at most 9 cm.
 // And not from where the last step expected them; but for what contacts do to single grains, which is finer than the
 // mesh.
 TEST(SaturatedRun, TheRateOfPorosityStartsFromWhereTheGrainsAre) {
@@ -176,6 +176,7 @@ TEST(SaturatedRun, TheRateOfPorosityStartsFromWhereTheGrainsAre) {
   EXPECT_LT(found, 0.55 * expected);  // 0.42 is seen
 }
 
+// The water past which the pile goes at 0.4 m/s, in steps of 1 ms, on edges of at most 9 cm.
 TEST(SaturatedRun, SaysHowFarItsWaterGoesInAStepAndHowItsMeshChanges) {
   const Told all = told(wet());
   double most = 0, fewest = 1e9;
