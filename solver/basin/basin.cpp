@@ -261,7 +261,11 @@ Basin assembled(const BasinSpec& spec, base::InstructionSet instructions, fluid:
 }
 
 Basin filled(const BasinSpec& spec, base::InstructionSet instructions) {
-  fluid::Flow flow = flow_in(spec, first_mesh(spec));
+  return filled(spec, instructions, first_mesh(spec));
+}
+
+Basin filled(const BasinSpec& spec, base::InstructionSet instructions, mesh::TriangleMesh mesh) {
+  fluid::Flow flow = flow_in(spec, std::move(mesh));
   fluid::FreeSurface top = top_of(spec, flow.mesh);
   const double tip = tip_at(spec, 0);
   Domain domain = domain_of(spec, flow.mesh, top, tip);

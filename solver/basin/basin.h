@@ -62,6 +62,8 @@ struct Basin {
 
 /// The basin at its start: at rest, with its surface as the scene says. Throws mesh::NoMesh.
 Basin filled(const BasinSpec& spec, base::InstructionSet instructions);
+/// The same on a mesh that is given: of the water at rest, around the pile where it starts.
+Basin filled(const BasinSpec& spec, base::InstructionSet instructions, mesh::TriangleMesh mesh);
 
 /// A basin of given parts, with its solver as the spec says; nothing remembered yet.
 Basin assembled(const BasinSpec& spec, base::InstructionSet instructions, fluid::Flow flow, fluid::FreeSurface top,

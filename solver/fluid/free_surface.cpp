@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/fluid/boundary_terms.h"
+#include "solver/fluid/dual.h"
 
 namespace seapile::fluid {
 namespace {
@@ -52,36 +53,39 @@ std::vector<double> upwinded(const FreeSurface& surface, std::span<const Surface
     v[s].y += lift;
   }
 
-  // The residual is linear in h: its values at h = 0 and at unit heights are the system.
+  // The residual is linear in h: what it is at `before`, and its derivatives, are the system of the rise from there.
+  using D = Dual<2>;
   const auto size = static_cast<Eigen::Index>(count);
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   for (std::size_t s = 0; s + 1 < count; ++s) {
     if (surface.gap == s) continue;
-    const auto residual = [&](double h0, double h1) {
-      return kinematic_residual<double>({EdgeEnd<double>{surface.x[s], h0, v[s].x, v[s].y},
-                                         EdgeEnd<double>{surface.x[s + 1], h1, v[s + 1].x, v[s + 1].y}},
-                                        {rate, rate}, {before[s], before[s + 1]}, surface.upwinding);
+    const auto end = [&](std::size_t at, int index) {
+      return EdgeEnd<D>{constant<2>(surface.x[at]), variable<2>(before[at], index), constant<2>(v[at].x),
+                        constant<2>(v[at].y)};
     };
-    const auto zero = residual(0, 0), first = residual(1, 0), other = residual(0, 1);
+    const auto residual =
+        kinematic_residual<D>({end(s, 0), end(s + 1, 1)}, {rate, rate}, {before[s], before[s + 1]}, surface.upwinding);
     for (int i = 0; i < 2; ++i) {
       const auto row = static_cast<Eigen::Index>(s) + i;
       if (row == 0 && surface.pinned) continue;
-      right[row] -= zero[i];
-      entries.emplace_back(row, static_cast<Eigen::Index>(s), first[i] - zero[i]);
-      entries.emplace_back(row, static_cast<Eigen::Index>(s) + 1, other[i] - zero[i]);
+      right[row] -= residual[i].value();
+      for (int j = 0; j < 2; ++j)
+        entries.emplace_back(row, static_cast<Eigen::Index>(s) + j, residual[i].derivatives()[j]);
     }
   }
   if (surface.pinned) {
     entries.emplace_back(0, 0, 1.0);
-    right[0] = past[0].height[0];
+    right[0] = past[0].height[0] - before[0];
   }
   Matrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<Matrix> factor(matrix);
-  Eigen::VectorXd h = factor.solve(right);
-  if (surface.pinned) h[0] = right[0];
-  return {h.begin(), h.end()};
+  const Eigen::VectorXd rise = factor.solve(right);
+  std::vector<double> height(count);
+  for (std::size_t s = 0; s < count; ++s) height[s] = before[s] + rise[static_cast<Eigen::Index>(s)];
+  if (surface.pinned) height[0] = past[0].height[0];
+  return height;
 }
 
 /// Explicit Euler with plain Galerkin: <tau_i tau_j> (dh/dt)_j = -<tau_i (v_x h' - v_y)>.

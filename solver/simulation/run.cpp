@@ -72,11 +72,11 @@ std::string advance(Simulation& sim, bool keep_impulses) {
 }  // namespace
 
 std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
-  if (scene.jet) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 1}};
-  if (scene.basin) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 1}, {"basin", 1}};
+  if (scene.jet) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 2}};
+  if (scene.basin) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 2}, {"basin", 1}};
   std::vector<NumericsVersion> versions = {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
   if (scene.fluid)
-    versions.insert(versions.end(), {{"mesh", 1}, {"fluid", 2}, {"free_surface", 1}, {"basin", 1}, {"coupling", 4}});
+    versions.insert(versions.end(), {{"mesh", 1}, {"fluid", 2}, {"free_surface", 2}, {"basin", 1}, {"coupling", 4}});
   return versions;
 }
 
