@@ -8,10 +8,12 @@
 #include <string>
 
 #include "runner/commands/command.h"
+#include "runner/commands/edges.h"
 #include "runner/commands/packings.h"
 #include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/summary.h"
+#include "runner/store/catalogue.h"
 #include "runner/study/study.h"
 
 namespace seapile::commands {
@@ -70,10 +72,44 @@ std::optional<std::int64_t> more_packings(const study::Study& study, const fs::p
   return static_cast<std::int64_t>(round->next);
 }
 
+/// Both ends of an edge, then what the results ask for. A run that diverges is a result here and is not tried again;
+/// all that was tried stays in the catalogue under the study.
+int run_edge(const RunArguments& arguments) {
+  const fs::path root = arguments.campaign.root;
+  study::Options options = arguments.options;
+  for (;;) {
+    const study::Study study = study::read(arguments.study, options);
+    const auto searches = edge_searches(study, root);
+    if (const auto untried = untried_probes(study, searches); !untried.empty()) {
+      study::Options round = options;
+      round.probes = untried;
+      const study::Study to_run = study::read(arguments.study, round);
+      execute::Campaign campaign(to_run, arguments.campaign);
+      if (const auto objection = execute::objection(campaign.sharing()); !objection.empty())
+        throw UsageError(objection);
+      for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
+      if (arguments.dry_run) return execute::kDone;
+      const int code = campaign.carry_out();
+      if (code != execute::kDone && code != execute::kSomeCasesFailed) return code;
+      if (untried_probes(study, edge_searches(study, root)) == untried) return code;  // they failed to run at all
+      continue;
+    }
+    const auto probes = next_probes(study, searches);
+    if (!probes.empty()) {
+      options.probes = probes;
+      continue;
+    }
+    if (!arguments.dry_run) store::Catalogue::open(root).put(execute::entry_of(study));
+    fmt::print("{}", present::text(present::edge_table(searches), present::Format::table));
+    return execute::kDone;
+  }
+}
+
 /// Round after round while the study's rule asks for more packings; a study without one is one round. A round whose
 /// results are all there is only read, so that the same command finds its way through what it has done to where it
 /// ended.
 int run(const RunArguments& arguments) {
+  if (study::read(arguments.study, arguments.options).edge) return run_edge(arguments);
   const fs::path root = arguments.campaign.root;
   study::Options options = arguments.options;
   std::string text;  // of the study: its SHA-256

@@ -19,6 +19,12 @@ namespace seapile::execute {
 
 namespace fs = std::filesystem;
 
+store::StudyEntry entry_of(const study::Study& study) {
+  store::StudyEntry entry{study.name, study.question, study.file_sha256, {}};
+  for (const study::Case& c : study.cases) entry.cases.emplace_back(c.id, c.labels);
+  return entry;
+}
+
 Campaign::Campaign(const study::Study& study, CampaignOptions options)
     : study_(study), options_(std::move(options)), numerics_(simulation::numerics_versions) {
   options_.sharing.cores = usable_cores();
@@ -80,9 +86,7 @@ std::vector<CaseOutcome> Campaign::outcomes() const {
 /// Tells the catalogue of the study, and of finished runs that it has missed.
 void Campaign::announce() const {
   auto catalogue = store::Catalogue::open(options_.root);
-  store::StudyEntry entry{study_.name, study_.question, study_.file_sha256, {}};
-  for (const study::Case& c : study_.cases) entry.cases.emplace_back(c.id, c.labels);
-  catalogue.put(entry);
+  catalogue.put(entry_of(study_));
   for (const Task& task : plan_.tasks) {
     if (task.decision.action != Action::fresh) continue;
     const fs::path run = store::case_folder(options_.root, task.id) / task.decision.run;

@@ -9,6 +9,7 @@
 #include "runner/execute/plan.h"
 #include "runner/execute/pool.h"
 #include "runner/execute/request.h"
+#include "runner/store/catalogue.h"
 #include "runner/study/study.h"
 
 namespace seapile::execute {
@@ -27,6 +28,9 @@ struct CaseOutcome {
   std::filesystem::path run_folder;  ///< its sealed run; empty when there is none to rely on
   std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
 };
+
+/// What the catalogue knows of a study.
+store::StudyEntry entry_of(const study::Study& study);
 
 class Campaign {
  public:

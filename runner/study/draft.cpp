@@ -25,7 +25,7 @@ bool is_saturated(const Value& tree) {
 
 }  // namespace
 
-Draft make_draft(const Grammar& grammar, const std::vector<std::size_t>& axis_indices,
+Draft make_draft(const Grammar& grammar, const std::vector<std::size_t>& axis_indices, const Variant* variant,
                  const std::vector<const Assignment*>& extra, ProblemCollector& collector) {
   struct Layer {
     const Path* path;
@@ -39,6 +39,9 @@ Draft make_draft(const Grammar& grammar, const std::vector<std::size_t>& axis_in
       layers.push_back({&column.path, &column.values[axis_indices[axis]], &column, nullptr});
     }
   }
+  if (variant)
+    for (const Assignment& assignment : variant->set)
+      layers.push_back({&assignment.path, &assignment.value, nullptr, nullptr});
   for (const Assignment* assignment : extra) {
     layers.push_back({&assignment->path, &assignment->value, nullptr, nullptr});
   }
@@ -62,7 +65,7 @@ Draft make_draft(const Grammar& grammar, const std::vector<std::size_t>& axis_in
     }
   }
   const std::string water = water_in(draft.tree);
-  for (const auto& [path, value] : grammar.fidelity) {
+  for (const auto& [path, value] : variant && variant->fidelity ? *variant->fidelity : grammar.fidelity) {
     const bool of_water = path.front() == "jet" || path.front() == "basin";
     if ((of_water ? path.front() : "") != water) continue;
     if (path.front() == "fluid" && !is_saturated(draft.tree)) continue;

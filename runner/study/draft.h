@@ -20,10 +20,10 @@ struct Draft {
   std::set<const Assignment*> used;                           ///< of the command line
 };
 
-/// Puts base, axes, conditions and command line over each other. Parts come before what is inside them, so that the
-/// order in which a study names its paths does not matter; on the same path the later in this sentence wins.
-/// `axis_indices`: the value of each axis; `extra`: what conditions set.
-Draft make_draft(const Grammar& grammar, const std::vector<std::size_t>& axis_indices,
+/// Puts base, axes, variant, conditions and command line over each other. Parts come before what is inside them, so
+/// that the order in which a study names its paths does not matter; on the same path the later in this sentence wins.
+/// `axis_indices`: the value of each axis; `variant`: null where the study has none; `extra`: what conditions set.
+Draft make_draft(const Grammar& grammar, const std::vector<std::size_t>& axis_indices, const Variant* variant,
                  const std::vector<const Assignment*>& extra, ProblemCollector& collector);
 
 }  // namespace seapile::study

@@ -21,8 +21,13 @@ using base::Problems;
 
 class Expander {
  public:
-  Expander(const Grammar& grammar, const std::filesystem::path& folder, Problems& problems)
-      : grammar_(grammar), folder_(folder), collector_(problems), axis_indices_(grammar.axes.size(), 0) {
+  Expander(const Grammar& grammar, const std::filesystem::path& folder, const std::vector<std::vector<double>>& probes,
+           Problems& problems)
+      : grammar_(grammar),
+        folder_(folder),
+        probes_(probes),
+        collector_(problems),
+        axis_indices_(grammar.axes.size(), 0) {
     tally_.excluded.resize(grammar.exclude.size());
     tally_.met.resize(grammar.when.size());
     result_.record = grammar.record;
@@ -30,8 +35,14 @@ class Expander {
 
   Expansion run() {
     const auto total = static_cast<std::size_t>(combination_count(grammar_));
+    const std::size_t variants = std::max<std::size_t>(1, grammar_.variants.size());
     for (std::size_t i = 0; i < total; ++i) {
-      add_case();
+      variant_ = grammar_.variants.empty() ? nullptr : &grammar_.variants[i / (total / variants)];
+      combination_ = i;
+      if (grammar_.edge)
+        add_probes();
+      else
+        add_case();
       advance();
     }
     report_idle(grammar_, tally_, total, collector_);
@@ -48,16 +59,28 @@ class Expander {
     }
   }
 
+  /// A case for each value of the edge.
+  void add_probes() {
+    const Edge& edge = *grammar_.edge;
+    std::vector<double> values{edge.good, edge.bad};
+    if (!probes_.empty()) values = combination_ < probes_.size() ? probes_[combination_] : std::vector<double>{};
+    for (const double value : values) {
+      probe_ = Assignment{edge.path, number_value(value, edge.place)};
+      add_case();
+    }
+  }
+
   void add_case() {
-    Draft draft = make_draft(grammar_, axis_indices_, {}, collector_);
     std::vector<const Assignment*> extra;
+    if (probe_) extra.push_back(&*probe_);
+    Draft draft = make_draft(grammar_, axis_indices_, variant_, extra, collector_);
     const ResolvedScene before = resolve_used(draft.scene);
     for (std::size_t i = 0; i < grammar_.when.size(); ++i) {
       if (!holds(grammar_.when[i].condition, before)) continue;
       ++tally_.met[i];
       for (const Assignment& assignment : grammar_.when[i].set) extra.push_back(&assignment);
     }
-    if (!extra.empty()) draft = make_draft(grammar_, axis_indices_, extra, collector_);
+    if (extra.size() > (probe_ ? 1 : 0)) draft = make_draft(grammar_, axis_indices_, variant_, extra, collector_);
 
     const ResolvedScene used = resolve_used(draft.scene);
     bool excluded = false;
@@ -196,21 +219,39 @@ class Expander {
     }
     one.canonical = canonical_text(scene, one.bed_id);
     one.id = case_id(one.canonical);
+    if (variant_) one.labels.emplace_back(kVariant, variant_->name);
     for (std::size_t axis = 0; axis < grammar_.axes.size(); ++axis) {
       for (const Column& column : grammar_.axes[axis].columns) {
         one.labels.emplace_back(join_path(column.path), value_text(column.values[axis_indices_[axis]], *column.node));
       }
     }
-    const auto [known, first] = ids_.emplace(one.id, axis_indices_);
+    one.combination = combination_;
+    if (probe_) {
+      one.probe = probe_->value.number;
+      one.labels.emplace_back(join_path(probe_->path), value_text(probe_->value, *grammar_.edge->node));
+    }
+    const auto [known, first] = ids_.emplace(one.id, Combination{axis_indices_, variant_});
     if (first) {
       result_.cases.push_back(std::move(one));
       return;
     }
+    const auto& [known_indices, known_variant] = known->second;
+    if (known_variant != variant_) {
+      collector_.add_once_at({pointer(variant_->place),
+                              fmt::format("gives the same case as the variant \"{}\"", known_variant->name),
+                              "variants that give different cases", ""});
+      return;
+    }
+    if (grammar_.edge && known_indices == axis_indices_) {
+      collector_.add_once_at({pointer(grammar_.edge->place), "gives the same case for two values of its path",
+                              "a path that the cases use, and that --set does not say", ""});
+      return;
+    }
     for (std::size_t axis = axis_indices_.size(); axis-- > 0;) {
-      if (axis_indices_[axis] == known->second[axis]) continue;
+      if (axis_indices_[axis] == known_indices[axis]) continue;
       const Column& column = grammar_.axes[axis].columns.front();
       collector_.add_once_at({pointer(column.values[axis_indices_[axis]].place),
-                              "gives the same case as " + pointer(column.values[known->second[axis]].place),
+                              "gives the same case as " + pointer(column.values[known_indices[axis]].place),
                               "values that give different cases", ""});
       return;
     }
@@ -218,19 +259,28 @@ class Expander {
 
   const Grammar& grammar_;
   const std::filesystem::path& folder_;
+  const std::vector<std::vector<double>>& probes_;
   ProblemCollector collector_;
   Expansion result_;
+  struct Combination {
+    std::vector<std::size_t> axis_indices;
+    const Variant* variant;
+  };
   std::vector<std::size_t> axis_indices_;  ///< the combination at hand, an index into each axis
+  const Variant* variant_ = nullptr;       ///< and its variant; null: the study has none
+  std::size_t combination_ = 0;            ///< counted
+  std::optional<Assignment> probe_;        ///< the value of the edge; absent: the study has none
   Tally tally_;
   std::map<std::tuple<std::string, double, double>, std::optional<GrainFile>> grain_files_;
   std::map<std::string, std::pair<base::Problem, std::size_t>> record_problems_;  ///< by pointer, with their cases
-  std::map<std::string, std::vector<std::size_t>> ids_;                           ///< with the combination of each
+  std::map<std::string, Combination> ids_;                                        ///< of the cases
 };
 
 }  // namespace
 
-Expansion expand(const Grammar& grammar, const std::filesystem::path& folder, Problems& problems) {
-  return Expander(grammar, folder, problems).run();
+Expansion expand(const Grammar& grammar, const std::filesystem::path& folder,
+                 const std::vector<std::vector<double>>& probes, Problems& problems) {
+  return Expander(grammar, folder, probes, problems).run();
 }
 
 }  // namespace seapile::study

@@ -32,6 +32,9 @@ class Reader {
     read_spec(grammar_.base, unused, problems_);
     read_axes();
     read_zip();
+    read_variants();
+    grammar_.edge = read_edge(document_, problems_);
+    if (grammar_.edge && !first_axis(grammar_.edge->path, grammar_.edge->place)) grammar_.edge.reset();
     read_replicates();
     read_exclude();
     read_when();
@@ -41,10 +44,10 @@ class Reader {
       grammar_.checks = read_checks(entries, problems_);
       grammar_.claims = read_claims(entries, problems_);
     }
-    report_unknown_keys(
-        document_,
-        {"study", "question", "base", "axes", "zip", "exclude", "when", "replicates", "fidelity", "record", "checks"},
-        problems_);
+    report_unknown_keys(document_,
+                        {"study", "question", "base", "axes", "zip", "variants", "exclude", "when", "replicates",
+                         "fidelity", "record", "checks", "frontier", "ablate", "edge"},
+                        problems_);
     read_command_line();
     check_base_under_axes();
     read_spec(grammar_.record_text, grammar_.record, problems_);
@@ -148,6 +151,33 @@ class Reader {
       together.columns.push_back(*std::move(column));
     }
     if (!together.columns.empty()) grammar_.axes.push_back(std::move(together));
+  }
+
+  void read_variants() {
+    std::set<std::string> names;
+    for (const Value& one : list("variants")) {
+      if (one.kind == Kind::unusable || !is_object(one, problems_)) continue;
+      report_unknown_keys(one, {"name", "set", "fidelity"}, problems_);
+      Variant variant;
+      variant.place = one.place;
+      const Value* name = one.find("name");
+      if (!name) {
+        report(one.place, "lacks \"name\"", "{\"name\": text, \"set\": {path: value}, \"fidelity\": level}");
+        continue;
+      }
+      read_string(*name, variant.name, problems_);
+      if (name->kind == Kind::string && (variant.name.empty() || variant.name.size() > kLongestName))
+        report(name->place, "is no name for a variant", "1 to 64 characters");
+      if (!names.insert(variant.name).second)
+        report(name->place, fmt::format("\"{}\" is a variant already", variant.name), "each name once");
+      if (const Value* set = one.find("set")) variant.set = read_assignments(*set, problems_);
+      for (const Assignment& assignment : variant.set) check_value(assignment.path, assignment.value, problems_);
+      if (const Value* level = one.find("fidelity"))
+        if (const auto index = read_choice(*level, fidelity_names(), problems_))
+          variant.fidelity = filled_by_fidelity(*index, level->place);
+      grammar_.variants.push_back(std::move(variant));
+    }
+    grammar_.trade = read_trade(document_, {names.begin(), names.end()}, problems_);
   }
 
   /// bed.seed = 1..count.
@@ -302,7 +332,7 @@ Grammar read_grammar(const Value& document, const Options& options, Problems& pr
 double combination_count(const Grammar& grammar) {
   double count = 1;
   for (const Axis& axis : grammar.axes) count *= static_cast<double>(axis.size());
-  return count;
+  return count * static_cast<double>(std::max<std::size_t>(1, grammar.variants.size()));
 }
 
 double most_combinations(const Grammar& grammar) {

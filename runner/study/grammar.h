@@ -8,10 +8,12 @@
 #include "runner/study/assignment.h"
 #include "runner/study/check_grammar.h"
 #include "runner/study/claim_grammar.h"
+#include "runner/study/edge.h"
 #include "runner/study/json_value.h"
 #include "runner/study/packing_rule.h"
 #include "runner/study/schema.h"
 #include "runner/study/study.h"
+#include "runner/study/trade.h"
 
 namespace seapile::study {
 
@@ -29,6 +31,14 @@ struct Axis {
   std::size_t size() const { return columns.front().values.size(); }
 };
 
+/// A way to compute the study's scenes, by its name.
+struct Variant {
+  std::string name;
+  PlacePtr place;
+  std::vector<Assignment> set;
+  std::optional<std::vector<Assignment>> fidelity;  ///< of its own; absent: the study's
+};
+
 struct When {
   Match condition;
   std::vector<Assignment> set;
@@ -40,6 +50,9 @@ struct Grammar {
   Value record_text;  ///< an object, what is said of the record
   scene::RecordSpec record;
   std::vector<Axis> axes;                   ///< the first varies slowest; zip after the axes, replicates last
+  std::optional<Trade> trade;               ///< what the variants are compared for
+  std::optional<Edge> edge;                 ///< which value is bisected in each combination
+  std::vector<Variant> variants;            ///< each with all combinations of the axes; none: one without a name
   std::optional<PackingRule> packing_rule;  ///< decides how many values the last axis has
   std::vector<Match> exclude;
   std::vector<When> when;

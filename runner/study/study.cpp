@@ -48,14 +48,15 @@ Study read(const std::filesystem::path& file, const Options& options) {
     stop_if_bad();
   }
 
-  Expansion expansion = expand(grammar, file.parent_path(), problems);
+  Expansion expansion = expand(grammar, file.parent_path(), options.probes, problems);
   const bool whole = problems.empty() && options.set.empty() && !options.seeds;
   auto checks = find_checks(grammar.checks, file.parent_path(), expansion.cases, whole, problems);
   auto claims = find_claims(grammar.claims, expansion.cases, whole, problems);
   stop_if_bad();
   return {grammar.name,      grammar.question,  file,
           sha256(*bytes),    expansion.record,  std::move(expansion.cases),
-          std::move(checks), std::move(claims), grammar.packing_rule};
+          std::move(checks), std::move(claims), grammar.packing_rule,
+          grammar.trade,     grammar.edge};
 }
 
 }  // namespace seapile::study

@@ -11,7 +11,9 @@
 
 #include "runner/study/check.h"
 #include "runner/study/claim.h"
+#include "runner/study/edge.h"
 #include "runner/study/packing_rule.h"
+#include "runner/study/trade.h"
 #include "solver/base/problem.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/array.h"
@@ -25,6 +27,9 @@ struct BadInput : std::runtime_error {
   base::Problems problems;  ///< at least one
 };
 
+/// The label of a case's variant, beside those of its axes.
+inline constexpr const char* kVariant = "variant";
+
 /// One scene to be simulated.
 struct Case {
   scene::SceneSpec scene;  ///< complete: defaults filled, fidelity applied, a grain file named by its real path
@@ -35,6 +40,8 @@ struct Case {
                        ///< when it has none
   /// What distinguishes this case in its study: (dotted path, value as text with its unit), in the order of the axes.
   std::vector<std::pair<std::string, std::string>> labels;
+  std::size_t combination = 0;  ///< of the axes and variants, in the order of the expansion
+  std::optional<double> probe;  ///< its value at the path of the study's edge [SI]
 };
 
 struct Study {
@@ -47,6 +54,8 @@ struct Study {
   std::vector<Check> checks;                ///< of those cases; no part of their identity
   std::vector<Claim> claims;                ///< likewise
   std::optional<PackingRule> packing_rule;  ///< by which the cases may become more (Options::packings)
+  std::optional<Trade> trade;               ///< what its variants are compared for
+  std::optional<Edge> edge;                 ///< which value of its cases is bisected (Options::probes)
 };
 
 /// What the command line adds to a study.
@@ -58,6 +67,8 @@ struct Options {
   std::optional<std::int64_t> seeds;
   /// How many packings the study's rule has come to, where it has one; absent: the least that it begins with.
   std::optional<std::int64_t> packings = {};
+  /// The values of the study's edge to have, by combination; empty: the two ends in each.
+  std::vector<std::vector<double>> probes = {};
 };
 
 inline constexpr std::int64_t kMostCases = 10'000;

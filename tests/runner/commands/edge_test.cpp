@@ -1,0 +1,60 @@
+// A study that looks for an edge, through the real program.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/runner/commands/program.h"
+
+namespace seapile::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kWaves = R"({"study": "edge", "question": "How long may a step be?",
+  "base": {"basin": {"surface": {"initial": {"cosine": {}}},
+    "mesh": {"pattern": {"structured": {"columns": 16, "rows": 4}}}, "time": {"duration": 2}}},
+  "axes": {"basin.surface.scheme": ["galerkin", "conservative"]},
+  "edge": {"path": "basin.time.step", "good": "2 ms", "bad": "0.2 s", "within": 0.5,
+    "invariants": [{"metric": "highest", "at_most": 6e-4}]},
+  "record": {"interval": 0.1}})";
+
+std::ptrdiff_t runs_in(const Workplace& place) {
+  std::ptrdiff_t runs = 0;
+  for (const auto& one : fs::directory_iterator(place.results() / "cases"))
+    runs += std::distance(fs::directory_iterator(one), {});
+  return runs;
+}
+
+TEST(EdgeStudy, EndsBetweenWhatHoldsAndWhatDoesNotAndTriesNothingTwice) {
+  const Workplace place;
+  place.write("edge.json", kWaves);
+  const Finished first = place.run({"edge.json"});
+  ASSERT_EQ(first.exit_code, 0) << first.error;
+  EXPECT_THAT(first.out, HasSubstr("galerkin"));
+  EXPECT_THAT(first.out, HasSubstr("found"));
+  EXPECT_THAT(first.out, HasSubstr("always holds")) << "the surface that is found with the flow";
+  const auto runs = runs_in(place);
+
+  const Finished second = place.run({"edge.json"});
+  EXPECT_EQ(second.exit_code, 0) << second.error;
+  EXPECT_EQ(second.out, first.out);
+  EXPECT_EQ(runs_in(place), runs) << "what diverged is a result";
+  // All that was tried belongs to the study.
+  EXPECT_THAT(place.run({"query", "edge"}).out, HasSubstr("galerkin"));
+}
+
+TEST(EdgeStudy, SaysWhenAnInvariantIsOfNoMetric) {
+  const Workplace place;
+  std::string typo = kWaves;
+  typo.replace(typo.find("\"highest\""), 9, "\"higest\"");
+  place.write("edge.json", typo);
+  const Finished finished = place.run({"edge.json"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.error, HasSubstr("did you mean \"highest\"?"));
+}
+
+}  // namespace
+}  // namespace seapile::commands
