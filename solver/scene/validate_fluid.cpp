@@ -72,6 +72,10 @@ Problems validate_fluid(const SceneSpec& scene, const std::optional<WayIntoBed>&
     return problems;
   }
   const pile::PileSpec& pile = *scene.pile;
+  if (const double grains = scene.bed.grains.density; fluid.density >= grains)
+    problems.push_back({kFluid + "/density",
+                        "is no less than that of the grains: they are not heavier than the fluid, and no bed rests",
+                        "less than " + text(grains, "kg/m3"), ""});
   check_step(scene, problems);
   check_period(pile.driving, fluid.time.step, "/pile/driving", problems);
   check_sizes(fluid.mesh.size, fluid.mesh.pile_size, std::min(box.width, fluid.depth), kFluid + "/mesh", problems);
