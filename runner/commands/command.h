@@ -21,6 +21,7 @@ void add_run(CLI::App& app, Call& call);
 void add_query(CLI::App& app, Call& call);
 void add_curve(CLI::App& app, Call& call);
 void add_figure(CLI::App& app, Call& call);
+void add_advise(CLI::App& app, Call& call);
 void add_trade(CLI::App& app, Call& call);
 void add_trend(CLI::App& app, Call& call);
 void add_check(CLI::App& app, Call& call);

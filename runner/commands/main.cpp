@@ -50,6 +50,7 @@ int run_program(int count, char** arguments) {
   commands::add_curve(app, call);
   commands::add_figure(app, call);
   commands::add_trade(app, call);
+  commands::add_advise(app, call);
   commands::add_trend(app, call);
   commands::add_check(app, call);
   commands::add_show(app, call);

@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 900, kHeight = 640, kAxis = 92, kGap = 24, kBottom = 70;  // pixels
-constexpr std::size_t kCharacters = 84;
+constexpr int kWidth = 1100, kPlot = 760, kAxis = 92, kGap = 24, kBottom = 70, kLine = 17;  // pixels
+constexpr std::size_t kCharacters = 104;
 constexpr double kPercent = 100;
 
 /// What is drawn where an error is 0, or its interval ends there, by the smallest that is not.
@@ -56,6 +56,8 @@ double median_half_width(const std::vector<Point>& points) {
 
 std::string gnuplot_script(const std::string& title, const TradedGroup& group, std::size_t metric) {
   std::vector<Point> points = points_of(group, metric);
+  // As high as the list of names needs.
+  const int height = std::max(640, 160 + kLine * static_cast<int>(points.size()));
   double least = INFINITY, most = 0, cheapest = INFINITY;
   for (const Point& point : points) {
     if (point.failed) continue;
@@ -67,28 +69,35 @@ std::string gnuplot_script(const std::string& title, const TradedGroup& group, s
   const double floor = kBelow * least, ceiling = 4 * most;
   std::ranges::stable_sort(points, {}, &Point::cpu);
 
-  std::string all, frontier, failed, names;
-  int index = 0;
-  for (const Point& point : points) {
-    if (point.failed) {
-      const double cpu = std::isnan(point.cpu) ? cheapest : point.cpu;
-      failed += fmt::format("{:.6g} {:.6g}\n", cpu, 0.8 * ceiling);
-      names += fmt::format("set label {} at {:.6g},{:.6g} offset 0.8,0.4 noenhanced font ',10' tc rgb '#b02020'\n",
-                           quoted(point.name + " (no result)"), cpu, 0.8 * ceiling);
-      continue;
-    }
-    const double y = std::max(point.error, floor);
-    all += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g}\n", point.cpu, y, std::max(point.low, floor),
-                       std::max(point.high, floor));
-    if (point.on_frontier) frontier += fmt::format("{:.6g} {:.6g}\n", point.cpu, y);
-    names += fmt::format("set label {} at {:.6g},{:.6g} offset 0.8,{} noenhanced font ',10' tc rgb '{}'\n",
-                         quoted(point.name), point.cpu, y, index++ % 2 == 0 ? "0.5" : "-0.5",
-                         point.on_frontier ? "#1a1a1a" : "#707070");
-  }
   const std::string note =
       "Bars: 95 % intervals; joined: nothing measured is both cheaper and closer; dashed: half an "
       "interval, what packings cannot tell.";
-  const Heading head = heading(title, note, kWidth, kHeight, kCharacters);
+  const Heading head = heading(title, note, kWidth, height, kCharacters);
+
+  std::string all, frontier, failed, names;
+  const auto label = [&](const std::string& text, const std::string& at, const char* colour) {
+    names += fmt::format("set label {} at {} noenhanced front font ',11' tc rgb '{}'\n", quoted(text), at, colour);
+  };
+  int number = 0;
+  for (const Point& point : points) {
+    // Numbers beside the points, names in a list, from the cheapest on.
+    const std::string name = fmt::format("{}  {}{}", ++number, point.name, point.failed ? " (no result)" : "");
+    const char* colour = point.failed ? "#b02020" : point.on_frontier ? "#1a1a1a" : "#707070";
+    label(name,
+          fmt::format("screen {:.4f}, screen {:.4f}", static_cast<double>(kPlot + kGap) / kWidth,
+                      1 - (head.bottom + kGap + (number - 1.0) * kLine) / height),
+          colour);
+    const double cpu = std::isnan(point.cpu) ? cheapest : point.cpu,
+                 y = point.failed ? 0.8 * ceiling : std::max(point.error, floor);
+    label(fmt::format("{}", number), fmt::format("{:.6g},{:.6g} offset 0.6,0.5", cpu, y), colour);
+    if (point.failed) {
+      failed += fmt::format("{:.6g} {:.6g}\n", cpu, y);
+      continue;
+    }
+    all +=
+        fmt::format("{:.6g} {:.6g} {:.6g} {:.6g}\n", cpu, y, std::max(point.low, floor), std::max(point.high, floor));
+    if (point.on_frontier) frontier += fmt::format("{:.6g} {:.6g}\n", cpu, y);
+  }
   std::string script = head.script;
   script +=
       "set border 3 lw 1 lc rgb '#8c8c8c'\n"
@@ -98,14 +107,14 @@ std::string gnuplot_script(const std::string& title, const TradedGroup& group, s
       "set grid xtics ytics back lt 1 lw 1 lc rgb '#e8e8e8'\n"
       "unset key\n";
   script += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
-                        1 - static_cast<double>(head.bottom + kGap) / kHeight, static_cast<double>(kBottom) / kHeight);
+                        1 - static_cast<double>(head.bottom + kGap) / height, static_cast<double>(kBottom) / height);
   script += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n",
-                        static_cast<double>(kAxis) / kWidth, 1 - static_cast<double>(kHeadingSide) / kWidth);
+                        static_cast<double>(kAxis) / kWidth, static_cast<double>(kPlot) / kWidth);
   script += fmt::format("set xrange [{:.6g}:*<{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", 0.7 * cheapest, 1e9, 0.6 * floor,
                         ceiling);
-  script +=
-      fmt::format("set xlabel 'CPU time of a run (s)' tc rgb '#1a1a1a'\nset ylabel {} noenhanced tc rgb '#1a1a1a'\n",
-                  quoted(fmt::format("error of {} (%)", group.metrics[metric])));
+  script += fmt::format(
+      "set xlabel 'CPU time of a run (s)' tc rgb '#1a1a1a'\nset ylabel {} noenhanced offset 1.2,0 tc rgb '#1a1a1a'\n",
+      quoted(fmt::format("error of {} (%)", group.metrics[metric])));
   script += names;
   const auto [colour, dash] = style_of(0);
   script += fmt::format("$all << END\n{}END\n", all);

@@ -173,8 +173,10 @@ class Reader {
       if (const Value* set = one.find("set")) variant.set = read_assignments(*set, problems_);
       for (const Assignment& assignment : variant.set) check_value(assignment.path, assignment.value, problems_);
       if (const Value* level = one.find("fidelity"))
-        if (const auto index = read_choice(*level, fidelity_names(), problems_))
+        if (const auto index = read_choice(*level, fidelity_names(), problems_)) {
+          variant.level = fidelity_names()[*index];
           variant.fidelity = filled_by_fidelity(*index, level->place);
+        }
       grammar_.variants.push_back(std::move(variant));
     }
     grammar_.trade = read_trade(document_, {names.begin(), names.end()}, problems_);

@@ -36,7 +36,8 @@ struct Variant {
   std::string name;
   PlacePtr place;
   std::vector<Assignment> set;
-  std::optional<std::vector<Assignment>> fidelity;  ///< of its own; absent: the study's
+  std::string level;                                ///< of fidelity, of its own; "": the study's
+  std::optional<std::vector<Assignment>> fidelity;  ///< what that fills in
 };
 
 struct When {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "runner/study/unit.h"
 
 namespace seapile::study {
@@ -94,6 +96,33 @@ void add_members(std::string& text, const std::string& before, const Value& part
   }
 }
 
+nlohmann::ordered_json as_json(const Value& value) {
+  nlohmann::ordered_json json;
+  switch (value.kind) {
+    case Kind::boolean:
+      json = value.truth;
+      break;
+    case Kind::number:
+      json = value.number;
+      break;
+    case Kind::string:
+      json = value.text;
+      break;
+    case Kind::array:
+      json = nlohmann::ordered_json::array();
+      for (const Value& item : value.items) json.push_back(as_json(item));
+      break;
+    case Kind::object:
+      json = nlohmann::ordered_json::object();
+      for (std::size_t i = 0; i < value.items.size(); ++i) json[value.keys[i]] = as_json(value.items[i]);
+      break;
+    case Kind::null:
+    case Kind::unusable:
+      break;
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string value_text(const Value& value, const SchemaNode& node) {
@@ -124,5 +153,7 @@ std::string value_text(const Value& value, const SchemaNode& node) {
   }
   return "";
 }
+
+std::string setting_text(const Value& value) { return value.kind == Kind::string ? value.text : as_json(value).dump(); }
 
 }  // namespace seapile::study

@@ -23,4 +23,7 @@ std::string written_at(const Value& tree, const Path& path);
 /// A value with its unit, on one line: "0.06 m/s", "conical(apex_angle=60 deg)", "null".
 std::string value_text(const Value& value, const SchemaNode& node);
 
+/// The value as `--set` takes it: a text as it is, everything else as JSON.
+std::string setting_text(const Value& value);
+
 }  // namespace seapile::study

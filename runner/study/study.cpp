@@ -6,6 +6,7 @@
 #include "runner/study/grammar.h"
 #include "runner/study/json_value.h"
 #include "runner/study/problem_text.h"
+#include "runner/study/scene_tree.h"
 #include "runner/study/sha256.h"
 #include "runner/study/text_file.h"
 
@@ -53,10 +54,16 @@ Study read(const std::filesystem::path& file, const Options& options) {
   auto checks = find_checks(grammar.checks, file.parent_path(), expansion.cases, whole, problems);
   auto claims = find_claims(grammar.claims, expansion.cases, whole, problems);
   stop_if_bad();
-  return {grammar.name,      grammar.question,  file,
-          sha256(*bytes),    expansion.record,  std::move(expansion.cases),
-          std::move(checks), std::move(claims), grammar.packing_rule,
-          grammar.trade,     grammar.edge};
+  std::vector<VariantText> variants;
+  for (const Variant& variant : grammar.variants) {
+    VariantText& text = variants.emplace_back(VariantText{variant.name, {}, variant.level});
+    for (const Assignment& assignment : variant.set)
+      text.set.emplace_back(join_path(assignment.path), setting_text(assignment.value));
+  }
+  return {grammar.name,        grammar.question,  file,
+          sha256(*bytes),      expansion.record,  std::move(expansion.cases),
+          std::move(checks),   std::move(claims), grammar.packing_rule,
+          std::move(variants), grammar.trade,     grammar.edge};
 }
 
 }  // namespace seapile::study

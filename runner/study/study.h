@@ -44,6 +44,13 @@ struct Case {
   std::optional<double> probe;  ///< its value at the path of the study's edge [SI]
 };
 
+/// A variant as its study writes it.
+struct VariantText {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> set;  ///< (path, value as `--set` takes it)
+  std::string fidelity;                                  ///< of its own; "": the study's
+};
+
 struct Study {
   std::string name;
   std::string question;
@@ -54,6 +61,7 @@ struct Study {
   std::vector<Check> checks;                ///< of those cases; no part of their identity
   std::vector<Claim> claims;                ///< likewise
   std::optional<PackingRule> packing_rule;  ///< by which the cases may become more (Options::packings)
+  std::vector<VariantText> variants;        ///< in the study's order
   std::optional<Trade> trade;               ///< what its variants are compared for
   std::optional<Edge> edge;                 ///< which value of its cases is bisected (Options::probes)
 };
