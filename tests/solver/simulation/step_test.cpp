@@ -1,3 +1,4 @@
+#include "solver/simulation/objection.h"
 #include "solver/simulation/step.h"
 
 #include <gmock/gmock.h>
@@ -50,7 +51,7 @@ TEST(Step, TravelIsTheLengthOfTheWayUpAndDown) {
 
 TEST(Step, OneThatIsFineMeetsNoObjection) {
   Simulation sim = with(pile::ConstantDriving{0.4});
-  for (int k = 0; k < 200; ++k) EXPECT_EQ(objection(sim, step(sim)), "");
+  for (int k = 0; k < 200; ++k) EXPECT_EQ(objection(sim, step(sim)).why, "");
 }
 
 TEST(Step, APlaceThatIsNoNumberMeetsAnObjection) {
@@ -59,8 +60,8 @@ TEST(Step, APlaceThatIsNoNumberMeetsAnObjection) {
     for (int k = 0; k < 20; ++k) step(place), step(motion);
     place.grains.disc[75].x = bad;
     std::visit([&](auto& system) { system.motion(75).vy = static_cast<float>(bad); }, motion.contacts);
-    EXPECT_NE(objection(place, step(place)), "");
-    EXPECT_NE(objection(motion, step(motion)), "");
+    EXPECT_NE(objection(place, step(place)).why, "");
+    EXPECT_NE(objection(motion, step(motion)).why, "");
   }
 }
 
@@ -68,7 +69,7 @@ TEST(Step, AGrainThatMovesMoreThanTheSmallestRadiusMeetsAnObjection) {
   Simulation sim = with(pile::ConstantDriving{0.4});
   std::visit([](auto& system) { system.motion(75).vy = 30; }, sim.contacts);
   std::string why;
-  for (int k = 0; k < 3 && why.empty(); ++k) why = objection(sim, step(sim));
+  for (int k = 0; k < 3 && why.empty(); ++k) why = objection(sim, step(sim)).why;
   EXPECT_THAT(why, testing::HasSubstr("reduce the step"));
 }
 
