@@ -11,6 +11,7 @@
 
 #include "solver/coupling/deposit.h"
 #include "solver/coupling/drag.h"
+#include "solver/simulation/objection.h"
 #include "tests/support/immersed_scene.h"
 
 namespace seapile::simulation {

@@ -1,4 +1,3 @@
-#include "solver/simulation/objection.h"
 #include "solver/simulation/step.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 
 #include "solver/pile/pile.h"
 #include "solver/simulation/build.h"
+#include "solver/simulation/objection.h"
 #include "solver/simulation/observe.h"
 #include "solver/simulation/state.h"
 #include "tests/support/scenes.h"
