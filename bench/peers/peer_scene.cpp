@@ -147,7 +147,8 @@ Ours drive_on(const scene::SceneSpec& scene, const Bed& bed, const Start& start,
     if (std::exchange(first, false)) begin = end;
   };
   hooks.checkpoint_due = [&] {
-    if (due >= options.moments || ours.records.empty() || ours.records.back().depth < options.from + due * spacing) return false;
+    if (due >= options.moments || ours.records.empty() || ours.records.back().depth < options.from + due * spacing)
+      return false;
     ++due;
     paused = Stopwatch::now();
     return true;

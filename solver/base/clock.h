@@ -32,7 +32,9 @@ struct Clock {
     ++step;
   }
   /// Whether `count` steps that have been halved so often end on one another's ends here.
-  bool begins(int count, int halved) const { return ticks() % (static_cast<std::int64_t>(count) * (kTicks >> halved)) == 0; }
+  bool begins(int count, int halved) const {
+    return ticks() % (static_cast<std::int64_t>(count) * (kTicks >> halved)) == 0;
+  }
 };
 
 }  // namespace seapile::base

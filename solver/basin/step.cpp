@@ -226,7 +226,7 @@ base::Objection step(Basin& basin, base::Profile& profile, const Suspension& sus
     };
   const fluid::FlowReport report = fluid::advance(flow, basin.past, basin.solver, profile, follow);
   if (!report.converged)
-    return !way.objection().empty()                ? fail(way.cause(), way.objection())
+    return !way.objection().empty()                 ? fail(way.cause(), way.objection())
            : is_finite(basin.past.level[0].unknown) ? fail(base::Cause::flow, report.reason)
                                                     : fail(base::Cause::not_finite, "the flow was not finite");
 

@@ -131,7 +131,8 @@ class Drive {
     }
     for (ForceWindow& window : windows_) window.add(sim_);
     take_frames();
-    const bool due = std::floor(sim_.pile->travel / record_.travel) > std::floor(sim_.gathering.travel / record_.travel);
+    const bool due =
+        std::floor(sim_.pile->travel / record_.travel) > std::floor(sim_.gathering.travel / record_.travel);
     if (!at_end() && !due) return;
     if (Objection why = take_records(); !why.empty()) reject(std::move(why));
   }
@@ -168,8 +169,7 @@ class Drive {
       now_.flow_records.push_back(take_flow_record(sim_));
       held_.add(hooks_.flow_record, now_.flow_records.back());
     }
-    if (hooks_.progress)
-      hooks_.progress({sim_.clock.time(), std::min(1.0, sim_.clock.time() / end_), depth(sim_)});
+    if (hooks_.progress) hooks_.progress({sim_.clock.time(), std::min(1.0, sim_.clock.time() / end_), depth(sim_)});
     return overlap_objection(sim_, now_.records.back().overlap_max);
   }
 

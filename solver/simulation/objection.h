@@ -1,5 +1,5 @@
-// What is checked of a step before it is accepted, and by which bounds (bounds.h). Each is asked so that a value that is
-// not a number is objected to.
+// What is checked of a step before it is accepted, and by which bounds (bounds.h). Each is asked so that a value that
+// is not a number is objected to.
 #pragma once
 
 #include "solver/basin/basin.h"

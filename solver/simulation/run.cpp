@@ -68,7 +68,8 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
     return result;
   }
   for (const PlacesBefore& before : measuring.open)
-    if (before.grain.size() != sim->grains.count()) throw std::invalid_argument("state: measures/place: of other grains");
+    if (before.grain.size() != sim->grains.count())
+      throw std::invalid_argument("state: measures/place: of other grains");
   return drive(*sim, scene, record, execution.trying, std::move(measuring), so_far, hooks);
 }
 

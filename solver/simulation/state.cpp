@@ -8,6 +8,7 @@
 
 #include "solver/grains/contact_lists.h"
 #include "solver/simulation/simulation.h"
+#include "solver/simulation/step.h"
 #include "solver/simulation/water_state.h"
 
 namespace seapile::simulation {
@@ -286,8 +287,9 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
     if (state[k].values.index() != values.index()) refuse(info.name, "of another type");
     if (state[k].info.columns != info.columns || size(state[k].values) % info.columns != 0) refuse(info.name, "of other columns");
     const bool fixed = info.entity == Entity::grain || info.name == "pile/motion" || info.name == "totals" ||
-                       info.name == "push/work" || info.name == "gathering" || info.name == "clock/step" || info.name == "clock/part" || info.name == kStepping ||
-                       info.name == "blocks/bodies_count" || info.name == "list/closing";
+                       info.name == "push/work" || info.name == "gathering" || info.name == "clock/step" ||
+                       info.name == "clock/part" || info.name == kStepping || info.name == "blocks/bodies_count" ||
+                       info.name == "list/closing";
     const bool never_listed = info.name == "list/position" && (size(values) == 0 || size(state[k].values) == 0);
     if (fixed && !never_listed && size(state[k].values) != size(values)) refuse(info.name, "of another length");
   }
@@ -331,14 +333,15 @@ void restore(Simulation& sim, const std::vector<Array>& all) {
   const auto& origin = source.get<double>("grains/origin");
 
   sim.clock.step = source.get<std::int64_t>("clock/step")[0];
-  sim.clock.part = sim.clock.halvings = 0;
+  sim.clock.part = 0;
+  int halvings = 0;
   sim.stepping = stepping_of(state, kStepping);
   if (is_halved(state)) {
     const auto& part = source.get<std::int64_t>("clock/part");
     sim.clock.part = static_cast<int>(part[0]);
-    sim.clock.halvings = static_cast<int>(part[1]);
+    halvings = static_cast<int>(part[1]);
   }
-  sim.law.step = sim.clock.size();
+  take_halvings(sim, halvings);
   for (std::size_t i = 0; i < sim.grains.count(); ++i) {
     sim.grains.disc[i].x = position[2 * i];
     sim.grains.disc[i].y = position[2 * i + 1];

@@ -16,9 +16,13 @@ struct StepReport {
 /// One time step. `keep_impulses`: so that touching_contacts() can be asked afterwards.
 StepReport step(Simulation& simulation, bool keep_impulses = false);
 
-/// Makes the step dt/2^halvings, of the grains and of the fluid: so often was it halved. What a step hands to the next in
-/// proportion to its size, kept impulses and the change of the grains' velocities, goes with it. The clock stands where
-/// such a step begins.
+/// Says of clock and contacts that the step is dt/2^halvings. Contacts keep their stiffness in N/m, which a law gives
+/// by its sub-step: what was at rest stays at rest.
+void take_halvings(Simulation& simulation, int halvings);
+
+/// Makes the step dt/2^halvings, of the grains and of the fluid: so often was it halved. What a step hands to the next
+/// in proportion to its size, kept impulses and the change of the grains' velocities, goes with it. The clock stands
+/// where such a step begins.
 void set_halvings(Simulation& simulation, int halvings);
 
 /// A stretch of steps on trial: the state at its start, to go back to when a step of it is not acceptable.

@@ -23,13 +23,18 @@ void scale_impulses(grains::AllPairs& system, double by) {
 
 }  // namespace
 
+void take_halvings(Simulation& sim, int halvings) {
+  sim.law.stiffness = std::ldexp(sim.law.stiffness, sim.clock.halvings - halvings);
+  sim.clock.halvings = halvings;
+  sim.law.step = sim.clock.size();
+}
+
 void set_halvings(Simulation& sim, int halvings) {
   if (halvings == sim.clock.halvings) return;
   sim.stepping.calm = 0;
   sim.stepping.smallest = std::max(sim.stepping.smallest, halvings);
   const double by = std::ldexp(1, sim.clock.halvings - halvings);
-  sim.clock.halvings = halvings;
-  sim.law.step = sim.clock.size();
+  take_halvings(sim, halvings);
   std::visit([&](auto& system) { scale_impulses(system, by); }, sim.contacts);
   if (sim.pile)
     for (auto& c : sim.pile->body.contact) {
@@ -39,8 +44,7 @@ void set_halvings(Simulation& sim, int halvings) {
   if (!sim.water) return;
   set_halvings(sim.water->basin, halvings);
   const std::vector<base::Vec2> now = velocities_of(sim);
-  for (std::size_t i = 0; i < now.size(); ++i)
-    sim.water->velocity[i] = now[i] - by * (now[i] - sim.water->velocity[i]);
+  for (std::size_t i = 0; i < now.size(); ++i) sim.water->velocity[i] = now[i] - by * (now[i] - sim.water->velocity[i]);
 }
 
 }  // namespace seapile::simulation

@@ -1,9 +1,10 @@
 // What becomes of a stretch of steps of which one cannot be accepted, and what a result says of it.
 //
-// A run goes on in stretches. Where a step is objected to, the whole state returns to the stretch's start and the stretch
-// is tried again: with steps of half the size, of the grains and of the fluid together, up to kMostHalvings times; then,
-// where the scene lets its mesh be made anew, on a new mesh, once; then the run has diverged. After kCalmSteps accepted
-// steps the size doubles again, where the larger step begins. What a stretch hands out is held back until it is accepted.
+// A run goes on in stretches. Where a step is objected to, the whole state returns to the stretch's start and the
+// stretch is tried again: with steps of half the size, of the grains and of the fluid together, up to kMostHalvings
+// times; then, where the scene lets its mesh be made anew, on a new mesh, once; then the run has diverged. After
+// kCalmSteps accepted steps the size doubles again, where the larger step begins. What a stretch hands out is held back
+// until it is accepted.
 #pragma once
 
 #include <array>
@@ -32,7 +33,8 @@ struct Stepping {
   friend bool operator==(const Stepping&, const Stepping&) = default;
 };
 
-/// As an array called `name`. The state of a run of which no step was rejected has none: it is what it would be without.
+/// As an array called `name`. The state of a run of which no step was rejected has none: it is what it would be
+/// without.
 Array as_array(const Stepping& stepping, const char* name);
 /// What the array was made of; nothing rejected where there is none. Throws std::invalid_argument when it does not fit.
 Stepping stepping_of(const std::vector<Array>& state, const char* name);

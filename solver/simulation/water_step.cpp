@@ -239,8 +239,9 @@ base::Objection solve_twice(Simulation& sim, WaterStep& step, const std::functio
 
 base::Objection step_water(Simulation& sim, const std::function<void(Simulation&)>& advance_grains) {
   WaterStep step(sim);
-  const base::Objection why = sim.water->coupling.scheme == coupling::Scheme::once ? step.solve(step.from_last_step())
-                                                                               : solve_twice(sim, step, advance_grains);
+  const base::Objection why = sim.water->coupling.scheme == coupling::Scheme::once
+                                  ? step.solve(step.from_last_step())
+                                  : solve_twice(sim, step, advance_grains);
   if (why.empty()) step.finish();
   return why;
 }

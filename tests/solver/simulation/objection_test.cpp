@@ -55,10 +55,10 @@ Objection after_a_step(basin::Basin& basin) {
   return why.empty() ? objection(basin) : why;
 }
 
-#define EXPECT_CAUSE(objection_, cause_)                       \
-  do {                                                         \
-    const Objection found = objection_;                        \
-    EXPECT_FALSE(found.empty());                               \
+#define EXPECT_CAUSE(objection_, cause_)                                        \
+  do {                                                                          \
+    const Objection found = objection_;                                         \
+    EXPECT_FALSE(found.empty());                                                \
     EXPECT_STREQ(text_of(found.cause).name, text_of(cause_).name) << found.why; \
   } while (false)
 

@@ -1,5 +1,5 @@
-// A step that is taken back leaves no trace, and a run that is stopped goes on as if it had not been: every kind of time
-// loop, with every method.
+// A step that is taken back leaves no trace, and a run that is stopped goes on as if it had not been: every kind of
+// time loop, with every method.
 #include <gtest/gtest.h>
 
 #include <cstring>

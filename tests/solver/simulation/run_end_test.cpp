@@ -186,7 +186,8 @@ TEST(RunEnd, AGrainThatIsTooFastForTheStepIsFollowedWithSmallerOnes) {
   EXPECT_EQ(after.run.result.outcome, Outcome::completed) << after.run.result.reason;
   EXPECT_TRUE(after.rejected.empty());
   EXPECT_GE(metric(after.run.result.metrics, "steps_rejected_path"), 1);
-  EXPECT_EQ(metric(after.run.result.metrics, "steps_rejected"), metric(after.run.result.metrics, "steps_rejected_path"));
+  EXPECT_EQ(metric(after.run.result.metrics, "steps_rejected"),
+            metric(after.run.result.metrics, "steps_rejected_path"));
   EXPECT_EQ(metric(after.run.result.metrics, "step_smallest"), kStep / 2);
   for (std::size_t k = 1; k < after.run.records.size(); ++k)
     EXPECT_GT(after.run.records[k].time, after.run.records[k - 1].time) << "none is handed out twice";

@@ -8,8 +8,8 @@
 
 #include "solver/simulation/build.h"
 #include "solver/simulation/flow_state.h"
-#include "solver/simulation/state.h"
 #include "solver/simulation/objection.h"
+#include "solver/simulation/state.h"
 #include "solver/simulation/step.h"
 #include "tests/support/scenes.h"
 
