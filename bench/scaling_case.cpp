@@ -42,12 +42,12 @@ ScalingState prepare(std::int64_t grains, const ScalingOptions& options, int thr
   start.scene = scaled_scene(grains, options.speed);
   // Reached by the stop below, which leaves a checkpoint.
   start.scene.pile->depth = 2 * options.depth;
-  const simulation::Execution execution{threads, options.simd};
+  const simulation::Execution execution{threads, options.simd, {1}};  // asked after each step whether to stop
   start.settling = measured([&] { start.bed = simulation::prepare_bed(start.scene.bed, {}, execution, {}); });
 
   simulation::RunHooks hooks;
   hooks.record = [&](const simulation::Record& r) { start.records.push_back(r); };
-  hooks.stop = [&] { return start.records.back().depth >= options.depth; };
+  hooks.stop = [&] { return !start.records.empty() && start.records.back().depth >= options.depth; };
   hooks.checkpoint = [&](const std::vector<simulation::Array>& state) { start.state = state; };
   simulation::RunResult result;
   start.driving =
@@ -64,12 +64,13 @@ ScalingRun run_once(const ScalingState& start, const ScalingOptions& options, in
   const double clock = clock_rate(), step = start.scene.contact.step;
   double first_cpu = 0, first_wall = 0, first_time = 0, last_cpu = 0, last_wall = 0, last_time = 0;
   simulation::RunHooks hooks;
+  // Records are held back until their steps are accepted; progress is told with each.
+  hooks.progress = [&](const simulation::Progress& p) {
+    last_cpu = cpu_seconds(), last_wall = wall_seconds(), last_time = p.time;
+    if (first_time == 0) first_cpu = last_cpu, first_wall = last_wall, first_time = last_time;
+  };
   hooks.record = [&](const simulation::Record& r) {
-    last_cpu = cpu_seconds(), last_wall = wall_seconds(), last_time = r.time;
-    if (first_time == 0)
-      first_cpu = last_cpu, first_wall = last_wall, first_time = last_time;
-    else
-      measured_run.contact_substeps += contact_substeps(r, start.scene.contact);
+    if (r.time > first_time) measured_run.contact_substeps += contact_substeps(r, start.scene.contact);
   };
   const simulation::RunResult result = simulation::run(start.scene, without_frames(), start.bed,
                                                        {threads, options.simd}, start.state, start.records, hooks);

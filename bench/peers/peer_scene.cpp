@@ -23,6 +23,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/peers/overlaps.h"
@@ -93,9 +94,9 @@ Start drive_to_start(const scene::SceneSpec& scene, const Bed& bed, const Option
   Start start;
   RunHooks hooks;
   hooks.record = [&](const Record& r) { start.record = r; };
-  hooks.stop = [&] { return start.record.depth >= options.start; };
+  hooks.stop = [&] { return start.record.depth >= options.start; };  // asked after each step
   hooks.checkpoint = [&](const std::vector<Array>& state) { start.checkpoint = state; };
-  const RunResult result = run(scene, {}, bed, {}, {}, {}, hooks);
+  const RunResult result = run(scene, {}, bed, {1, Simd::best, {1}}, {}, {}, hooks);
   if (result.outcome != Outcome::stopped) throw std::runtime_error("the state was not reached: " + result.reason);
   return start;
 }
@@ -138,13 +139,16 @@ Ours drive_on(const scene::SceneSpec& scene, const Bed& bed, const Start& start,
   RunHooks hooks;
   int due = 0;
   const double spacing = (options.end - options.from) / options.moments;
-  hooks.record = [&](const Record& r) {
-    ours.records.push_back(r);
+  // Records are held back until their steps are accepted; progress is told with each.
+  bool first = true;
+  hooks.record = [&](const Record& r) { ours.records.push_back(r); };
+  hooks.progress = [&](const Progress&) {
     end = Stopwatch::now() - analysed;
-    if (ours.records.size() == 1) begin = end;
+    if (std::exchange(first, false)) begin = end;
   };
   hooks.checkpoint_due = [&] {
-    if (due >= options.moments || ours.records.back().depth < options.from + due * spacing) return false;
+    if (due >= options.moments || ours.records.empty() || ours.records.back().depth < options.from + due * spacing)
+      return false;
     ++due;
     paused = Stopwatch::now();
     return true;

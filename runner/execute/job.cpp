@@ -176,6 +176,15 @@ class Job {
       note_cost();
     };
     hooks.stop = [] { return stop_requested != 0; };
+    if constexpr (requires { hooks.post_mortem; })
+      hooks.post_mortem = [&writer](const std::vector<simulation::Array>& rejected, const std::string& reason) {
+        log("diverged: {}", reason);
+        try {
+          writer.post_mortem(rejected, reason);
+        } catch (const store::StoreError& error) {  // the run's end is worth more than the state that it died of
+          log("the rejected state is not kept: {}", error.what());
+        }
+      };
     return hooks;
   }
 

@@ -5,7 +5,7 @@
 //   <root>/cases/<case id>/<nnnn>/          one run; complete if and only if manifest.json is there and verifies
 //       manifest.json  series.h5  grains.vtkhdf + .xdmf  contacts.vtkhdf + .xdmf  fields.vtkhdf + .xdmf
 //       bed.h5 (a bed's grains, exact)  flow.vtkhdf + .xdmf  surface.h5 (the water's mesh and free surface)
-//       checkpoint/a.h5, b.h5  segment/<nnnnnn>.h5 (only while running)  log.txt
+//       checkpoint/a.h5, b.h5  segment/<nnnnnn>.h5 (only while running)  post_mortem.h5 (diverged)  log.txt
 //
 // The seal of every file: written under a temporary name, flushed, every close's return code checked, fsynced,
 // re-opened and compared with what was held, renamed, directory fsynced. On the first error StoreError is thrown and
@@ -114,6 +114,9 @@ class RunWriter {
 
   /// Seals the records and frames since the last call and the state, alternating a.h5 and b.h5.
   void checkpoint(const std::vector<simulation::Array>& state);
+
+  /// Seals the state that a diverged run could not accept, beside its last accepted one, the newest checkpoint.
+  void post_mortem(const std::vector<simulation::Array>& rejected, const std::string& reason);
 
   /// Merges, seals and verifies every file, writes the manifest last, then removes segments and checkpoints (a diverged
   /// run keeps them). `bed`: for a bed's run, its grains, porosity profile and records (bed.h5 instead of series.h5;

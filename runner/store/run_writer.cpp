@@ -29,7 +29,7 @@ using simulation::Record;
 // Everything that a run can consist of, once it is complete.
 constexpr std::array kMerged = {"bed.h5",      "contacts.vtkhdf", "contacts.xdmf", "fields.vtkhdf",
                                 "fields.xdmf", "flow.vtkhdf",     "flow.xdmf",     "grains.vtkhdf",
-                                "grains.xdmf", "series.h5",       "surface.h5"};
+                                "grains.xdmf", "post_mortem.h5",  "series.h5",     "surface.h5"};
 // What a run seals while it runs.
 constexpr std::array kRunning = {"checkpoint", "segment"};
 
@@ -173,6 +173,10 @@ void RunWriter::checkpoint(const std::vector<simulation::Array>& state) {
   const std::int64_t generation = impl_->generation + 1;
   write_checkpoint(checkpoint_file(impl_->folder, generation), impl_->stamp, {generation, impl_->digests, state});
   impl_->generation = generation;
+}
+
+void RunWriter::post_mortem(const std::vector<simulation::Array>& rejected, const std::string& reason) {
+  write_post_mortem(impl_->folder / "post_mortem.h5", {impl_->stamp.case_id, impl_->stamp.run}, rejected, reason);
 }
 
 void RunWriter::finish(const simulation::RunResult& result, Provenance provenance, const simulation::Bed* bed) {

@@ -143,6 +143,15 @@ void write_checkpoint(const std::filesystem::path& file, const Stamp& stamp, con
   });
 }
 
+void write_post_mortem(const std::filesystem::path& file, const Stamp& stamp, const std::vector<Array>& rejected,
+                       const std::string& reason) {
+  seal(file, hdf5::Storage::packed, [&](hdf5::FileWriter& writer) {
+    write_stamp(writer, "post_mortem", stamp);
+    writer.attribute("/", "reason", reason);
+    write_arrays(writer, "/state", rejected);
+  });
+}
+
 Checkpoint read_checkpoint(const std::filesystem::path& file, const Stamp& stamp) {
   hdf5::FileReader reader(file);
   check_stamp(reader, "checkpoint", stamp);

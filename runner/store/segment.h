@@ -39,6 +39,10 @@ struct Checkpoint {
 };
 
 void write_checkpoint(const std::filesystem::path& file, const Stamp& stamp, const Checkpoint& checkpoint);
+/// The state that a diverged run could not accept, and why (one sentence).
+void write_post_mortem(const std::filesystem::path& file, const Stamp& stamp,
+                       const std::vector<simulation::Array>& rejected, const std::string& reason);
+
 Checkpoint read_checkpoint(const std::filesystem::path& file, const Stamp& stamp);
 
 }  // namespace seapile::store

@@ -122,7 +122,16 @@ std::vector<base::Vec2> tip_outline(const BasinPileSpec& pile, double tip) {
   return {{0, tip}, {pile.radius, tip + pile::tip_height(as_pile(pile))}};
 }
 
-double time_of(const Basin& basin) { return static_cast<double>(basin.step) * basin.spec.time.step; }
+double time_of(const Basin& basin) { return basin.clock.time(); }
+
+void set_halvings(Basin& basin, int halvings) {
+  if (halvings == basin.clock.halvings) return;
+  basin.clock.halvings = halvings;
+  basin.past.dt = basin.clock.size();
+  basin.past.level.resize(1);
+  basin.past_tip.resize(1);
+  basin.past_flux.resize(std::min<std::size_t>(basin.past_flux.size(), 1));
+}
 
 double volume_of(const mesh::TriangleMesh& mesh) {
   double volume = 0;
@@ -253,6 +262,7 @@ void set_outside(Basin& basin) {
 Basin assembled(const BasinSpec& spec, base::InstructionSet instructions, fluid::Flow flow, fluid::FreeSurface top,
                 Domain domain) {
   Basin basin{.spec = spec, .flow = std::move(flow), .top = std::move(top), .domain = std::move(domain)};
+  basin.clock.dt = spec.time.step;
   basin.solver.order = spec.time.order == 2 ? fluid::TimeOrder::second : fluid::TimeOrder::first;
   basin.solver.tolerance = spec.time.tolerance;
   basin.solver.instructions = instructions;

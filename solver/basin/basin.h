@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/base/clock.h"
 #include "solver/base/instruction_set.h"
 #include "solver/basin/basin_spec.h"
 #include "solver/basin/surface_flux.h"
@@ -54,7 +55,7 @@ struct Basin {
   fluid::FlowSolver solver = {};
   base::Vec2 tip_force = {}, sleeve_force = {};  ///< of the water in the last step, without the hydrostatic one [N/m]
   double volume_at_start = 0;          ///< of the water [m2]
-  std::int64_t step = 0;               ///< steps done
+  base::Clock clock = {};              ///< steps done
   std::int64_t iterations = 0;         ///< corrections so far
   std::int64_t last_iterations = 0;
   std::vector<RemeshReport> remeshes = {};  ///< so far
@@ -85,6 +86,9 @@ std::vector<base::Vec2> tip_outline(const BasinPileSpec& pile, double tip);
 bool is_iterated(const BasinSpec& spec);
 
 double time_of(const Basin& basin);
+
+/// Makes the step dt/2^halvings. The past is one of the old step: what comes next begins anew, as an Euler step.
+void set_halvings(Basin& basin, int halvings);
 
 /// rho/2 times the integral of u^2 [J/m].
 double kinetic_energy_of(const fluid::Flow& flow);

@@ -98,7 +98,7 @@ void remesh(Basin& basin, const std::function<void(fluid::Flow&)>& suspended) {
       if (carried(fresh.flow)(w))
         fresh.flow.u(w, kVelocityY) = fresh.flow.porosity[w] / basin.flow.porosity[*v] * basin.flow.u(*v, kVelocityY);
 
-  settle(fresh.flow, basin.solver, spec.time.step);
+  settle(fresh.flow, basin.solver, basin.clock.size());
 
   double size = 0, changed = 0;
   for (const int c : {kVelocityX, kVelocityY}) {
@@ -120,7 +120,7 @@ void remesh(Basin& basin, const std::function<void(fluid::Flow&)>& suspended) {
   basin.solver.factor = {};
   basin.solver.factor_rate = -1;
   basin.past = {};
-  fluid::remember(basin.past, basin.flow, spec.time.step);
+  fluid::remember(basin.past, basin.flow, basin.clock.size());
   basin.past_tip.resize(1);
   basin.past_flux.resize(1);
   report.time = time_of(basin);

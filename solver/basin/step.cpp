@@ -20,14 +20,23 @@ std::vector<base::Vec2> velocities(const std::vector<double>& unknown) {
   return v;
 }
 
+bool is_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
+}
+
+base::Clock after(base::Clock clock) {
+  clock.advance();
+  return clock;
+}
+
 /// The pile, surface and mesh of one step on their way to the new time.
 class Way {
  public:
   Way(Basin& basin, const Suspension& suspension)
       : basin_(basin),
         suspension_(suspension),
-        dt_(basin.spec.time.step),
-        tip_(tip_at(basin.spec, static_cast<double>(basin.step + 1) * dt_)),
+        dt_(basin.clock.size()),
+        tip_(tip_at(basin.spec, after(basin.clock).time())),
         second_(basin.solver.order == fluid::TimeOrder::second && basin.past.level.size() == 2),
         old_height_(basin.top.height),
         old_unknown_(basin.flow.unknown),
@@ -45,6 +54,7 @@ class Way {
 
   double tip() const { return tip_; }
   const std::string& objection() const { return objection_; }
+  base::Cause cause() const { return cause_; }
 
   /// The water on the pile moves with it.
   void move_pile() {
@@ -87,13 +97,17 @@ class Way {
   /// False when there is no valid mesh for surface and pile.
   bool move_mesh() {
     objection_ = fluid::objection(basin_.top);
-    if (!objection_.empty()) return false;
+    if (!objection_.empty()) {
+      cause_ = is_finite(basin_.top.height) ? base::Cause::mesh : base::Cause::not_finite;
+      return false;
+    }
     place(basin_, tip_);
     const mesh::TriangleMesh& mesh = basin_.flow.mesh;
     const auto& from = basin_.past.level[0].position;
     if (const auto inversion = mesh::first_inversion(mesh, from, mesh.position)) {
       const auto& t = mesh.triangle[inversion->triangle];
       const base::Vec2 where = (1.0 / 3) * (from[t[0]] + from[t[1]] + from[t[2]]);
+      cause_ = base::Cause::mesh;
       objection_ = "the mesh would turn over at x = " + std::to_string(where.x) + " m, y = " + std::to_string(where.y) +
                    " m, after " + std::to_string(std::lround(100 * inversion->at)) + " % of a step's way";
       return false;
@@ -183,22 +197,23 @@ class Way {
   std::vector<base::Vec2> old_mesh_velocity_;
   std::vector<double> old_porosity_, old_porosity_rate_;
   std::string objection_;
+  base::Cause cause_ = base::Cause::mesh;
 };
 
 }  // namespace
 
-std::string step(Basin& basin, base::Profile& profile, const Suspension& suspension) {
+base::Objection step(Basin& basin, base::Profile& profile, const Suspension& suspension) {
   fluid::Flow& flow = basin.flow;
   Way way(basin, suspension);
-  const auto fail = [&](std::string why) {
+  const auto fail = [&](base::Cause cause, std::string why) {
     way.undo();
-    return why;
+    return base::Objection{cause, std::move(why)};
   };
 
   {
     const base::Stopwatch watch(profile, profile.index("domain"));
     way.move_surface(false);
-    if (!way.move_mesh()) return fail(way.objection());
+    if (!way.move_mesh()) return fail(way.cause(), way.objection());
   }
   way.load_mesh();
   fluid::FollowFlow follow;
@@ -210,15 +225,18 @@ std::string step(Basin& basin, base::Profile& profile, const Suspension& suspens
       return true;
     };
   const fluid::FlowReport report = fluid::advance(flow, basin.past, basin.solver, profile, follow);
-  if (!report.converged) return fail(way.objection().empty() ? report.reason : way.objection());
+  if (!report.converged)
+    return !way.objection().empty()                 ? fail(way.cause(), way.objection())
+           : is_finite(basin.past.level[0].unknown) ? fail(base::Cause::flow, report.reason)
+                                                    : fail(base::Cause::not_finite, "the flow was not finite");
 
   if (basin.spec.pile) feel_pile(basin, fluid::scheme_of(basin.past, basin.solver));
   if (suspension.solved) suspension.solved(basin);
   way.settle_volume(report.defect);
-  ++basin.step;
+  basin.clock.advance();
   basin.last_iterations = report.iterations;
   basin.iterations += report.iterations;
-  fluid::remember(basin.past, flow, basin.spec.time.step);
+  fluid::remember(basin.past, flow, basin.clock.size());
   basin.past_tip.insert(basin.past_tip.begin(), way.tip());
   basin.past_tip.resize(basin.past.level.size());
   basin.past_flux.resize(std::min(basin.past_flux.size(), basin.past.level.size()));

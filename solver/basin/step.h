@@ -13,8 +13,8 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
+#include "solver/base/objection.h"
 #include "solver/base/profile.h"
 #include "solver/basin/basin.h"
 
@@ -31,7 +31,8 @@ struct Suspension {
   std::function<void(fluid::Flow&)> remeshed;
 };
 
-/// Empty when the step is done; otherwise one sentence on why it cannot be, and the basin is as it was before.
-std::string step(Basin& basin, base::Profile& profile, const Suspension& suspension = {});
+/// Empty when the step is done; otherwise why it cannot be, and the basin is as it was before, but for what its solver
+/// has learnt (fluid::FlowSolver).
+base::Objection step(Basin& basin, base::Profile& profile, const Suspension& suspension = {});
 
 }  // namespace seapile::basin

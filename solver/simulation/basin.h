@@ -14,7 +14,7 @@
 
 namespace seapile::simulation {
 
-/// What a basin's run hands out while it runs, and what it is asked.
+/// What a basin's run hands out while it runs, and what it is asked: as RunHooks.
 struct BasinHooks {
   std::function<void(const FlowRecord&)> record;
   std::function<void(const FlowFrame&)> frame;
@@ -22,6 +22,7 @@ struct BasinHooks {
   std::function<bool()> checkpoint_due;
   std::function<void(const std::vector<Array>&)> checkpoint;
   std::function<bool()> stop;
+  std::function<void(const std::vector<Array>& rejected, const std::string& reason)> post_mortem;
 };
 
 /// Runs a basin. `record` says at which times (`interval`, `times`) records and frames are handed out; the first record

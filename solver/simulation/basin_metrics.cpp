@@ -99,10 +99,10 @@ void add_wave(std::vector<Metric>& metrics, const basin::Basin& basin, const Rec
 }  // namespace
 
 std::vector<Metric> metrics_of(const basin::Basin& basin, const Records& records) {
-  const double steps = static_cast<double>(std::max<std::int64_t>(basin.step, 1));
+  const double steps = static_cast<double>(std::max<std::int64_t>(basin.clock.step, 1));
   std::vector<Metric> metrics{
       {"reached", basin::time_of(basin), "s", "time of the last good state"},
-      {"steps", static_cast<double>(basin.step), "-", "steps done"},
+      {"steps", static_cast<double>(basin.clock.step), "-", "steps done"},
       {"iterations_per_step", static_cast<double>(basin.iterations) / steps, "-", "corrections of a step, mean"},
       {"refactorisations", static_cast<double>(basin.solver.refactorisations), "-", "factors made"},
       {"vertices", static_cast<double>(basin.flow.mesh.vertices()), "-", "vertices of the last mesh"},

@@ -13,6 +13,8 @@ namespace {
 using basin::Basin;
 using fluid::FreeSurface;
 
+constexpr const char* kPart = "basin/clock";
+
 /// The amplitude of a mode of the surface: (2/L) int (h - H) cos(k x) dx, exact for the polygon.
 double amplitude_of(const FreeSurface& top, double width, double depth, double mode) {
   const double k = mode * std::numbers::pi / width;
@@ -68,7 +70,7 @@ double cfl_of(const Basin& basin) {
     }
     most = std::max(most, speed / edge);
   }
-  return most * basin.spec.time.step;
+  return most * basin.clock.size();
 }
 
 /// A report on a remesh as a row of numbers, and back.
@@ -137,7 +139,7 @@ std::vector<Array> snapshot(const Basin& basin) {
   for (const std::vector<double>& level : basin.past_flux) flux.insert(flux.end(), level.begin(), level.end());
   std::vector<Array> state{
       {{"basin/steps", "-", "steps, corrections, corrections of the last step", 1, Entity::run},
-       std::vector<std::int64_t>{basin.step, basin.iterations, basin.last_iterations}},
+       std::vector<std::int64_t>{basin.clock.step, basin.iterations, basin.last_iterations}},
       {{"basin/volume_at_start", "m2", "volume of the water at the start", 1, Entity::run},
        std::vector<double>{basin.volume_at_start}},
       {{"basin/remeshes", "-", "reports on the remeshes so far", kRemeshColumns, Entity::run}, remeshes},
@@ -151,6 +153,9 @@ std::vector<Array> snapshot(const Basin& basin) {
       {{"pile/past_tip", "m", "heights of the tip, newest first", 1, Entity::run}, basin.past_tip},
       {{"pile/force", "N/m", "of the water on tip and sleeve", 2, Entity::run},
        flat({basin.tip_force, basin.sleeve_force})}};
+  if (basin.clock.part != 0 || basin.clock.halvings != 0)
+    state.push_back({{kPart, "-", "ticks since the last whole step, halvings", 1, Entity::run},
+                     std::vector<std::int64_t>{basin.clock.part, basin.clock.halvings}});
   add_flow(state, flow, basin.past, basin.solver);
   return state;
 }
@@ -171,7 +176,12 @@ Basin restored(const basin::BasinSpec& spec, base::InstructionSet instructions, 
       basin::domain_of(spec, flow.mesh, top, array_of<double>(state, "mesh/reference_tip", 1).front());
   Basin basin = basin::assembled(spec, instructions, std::move(flow), std::move(top), std::move(domain));
   restore_flow(basin.flow, basin.past, basin.solver, state);
-  basin.past.dt = spec.time.step;
+  if (has_array(state, kPart)) {
+    const auto& part = array_of<std::int64_t>(state, kPart, 2);
+    basin.clock.part = static_cast<int>(part[0]);
+    basin.clock.halvings = static_cast<int>(part[1]);
+  }
+  basin.past.dt = basin.clock.size();
   const auto vertices = static_cast<std::ptrdiff_t>(basin.flow.mesh.vertices());
   basin.flow.mesh_velocity = vectors(array_of<double>(state, "flow/mesh_velocity", 2 * vertices));
   basin.top.height = array_of<double>(state, "surface/height", static_cast<std::ptrdiff_t>(basin.top.vertex.size()));
@@ -184,7 +194,7 @@ Basin restored(const basin::BasinSpec& spec, base::InstructionSet instructions, 
   basin.tip_force = force[0];
   basin.sleeve_force = force[1];
   const auto& steps = array_of<std::int64_t>(state, "basin/steps", 3);
-  basin.step = steps[0];
+  basin.clock.step = steps[0];
   basin.iterations = steps[1];
   basin.last_iterations = steps[2];
   basin.volume_at_start = array_of<double>(state, "basin/volume_at_start", 1).front();

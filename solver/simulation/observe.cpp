@@ -115,7 +115,7 @@ Record take_record(Simulation& sim) {
 }
 
 void ForceWindow::add(const Simulation& sim) {
-  time_ += sim.clock.dt;
+  time_ += sim.clock.size();
   std::visit(
       [&](const auto& system) {
         for (const grains::TouchingContact& c : touching_contacts(system, sim.grains, body_of(sim))) {

@@ -74,7 +74,8 @@ struct Progress {
 Bed prepare_bed(const scene::BedSpec& bed, const std::vector<Array>& given, const Execution& execution,
                 const std::function<void(const Progress&)>& progress);
 
-/// What a run hands out while it runs, and what it is asked.
+/// What a run hands out while it runs, and what it is asked. Records and frames are handed out when the stretch that
+/// they are of is accepted.
 struct RunHooks {
   std::function<void(const Record&)> record;
   std::function<void(const Frame&)> frame;
@@ -82,13 +83,16 @@ struct RunHooks {
   std::function<void(const FlowRecord&)> flow_record;
   std::function<void(const FlowFrame&)> flow_frame;
   std::function<void(const Progress&)> progress;
-  /// Asked after each record: true seals a checkpoint now.
+  /// Asked after each stretch that was accepted (simulation/stepping.h): true seals a checkpoint now.
   std::function<bool()> checkpoint_due;
   /// What is to be sealed: the state, from snapshot(), and what frames have measured (simulation/tip_measures.h). Writing
   /// it changes no bit of what follows.
   std::function<void(const std::vector<Array>&)> checkpoint;
-  /// Asked after each record: true stops the run, which is then `stopped` and resumable from a last checkpoint.
+  /// Asked after each stretch: true stops the run, which is then `stopped` and resumable from a last checkpoint.
   std::function<bool()> stop;
+  /// Of a run that has diverged, after its last checkpoint, which is the last accepted state: the state that was
+  /// rejected last, and why. Where a step could not be done at all it is the state from which it was tried.
+  std::function<void(const std::vector<Array>& rejected, const std::string& reason)> post_mortem;
 };
 
 enum class Outcome { completed, diverged, stopped };

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "solver/simulation/objection.h"
 #include "solver/simulation/observe.h"
 #include "solver/simulation/step.h"
 
@@ -38,8 +39,8 @@ Settled settle(Simulation& sim, double longest, std::vector<Record>& records,
     const double until = sim.clock.time() + kRecordTime;
     while (sim.clock.time() < until - 0.5 * sim.clock.dt) {
       const StepReport report = step(sim);
-      if (const std::string why = objection(sim, report); !why.empty())
-        throw std::runtime_error("the bed does not settle: " + why);
+      if (const Objection why = objection(sim, report); !why.empty())
+        throw std::runtime_error("the bed does not settle: " + why.why);
       gather(sim, report);
     }
     records.push_back(take_record(sim));

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "solver/base/clock.h"
 #include "solver/base/profile.h"
 #include "solver/base/vec2.h"
 #include "solver/grains/brute_force.h"
@@ -13,16 +14,12 @@
 #include "solver/grains/rigid_body.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/execution.h"
+#include "solver/simulation/stepping.h"
 #include "solver/simulation/water.h"
 
 namespace seapile::simulation {
 
-/// Time counted in steps, so that no rounding accumulates.
-struct Clock {
-  std::int64_t step = 0;
-  double dt = 0;  ///< [s]
-  double time() const { return static_cast<double>(step) * dt; }
-};
+using base::Clock;
 
 /// The pile in the run: a body of the contact problem with a prescribed motion.
 struct Pile {
@@ -45,6 +42,7 @@ struct Gathering {
 /// One run: everything that a step reads and writes. Movable; no pointer into itself.
 struct Simulation {
   Clock clock;
+  Stepping stepping;
   grains::Box box;
   grains::ContactLaw law;
   grains::Grains grains;

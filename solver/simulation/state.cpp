@@ -8,12 +8,15 @@
 
 #include "solver/grains/contact_lists.h"
 #include "solver/simulation/simulation.h"
+#include "solver/simulation/step.h"
 #include "solver/simulation/water_state.h"
 
 namespace seapile::simulation {
 namespace {
 
 using grains::ContactSystem;
+
+constexpr const char* kStepping = "clock/rejected";
 
 template <class T>
 ArrayView view(const std::vector<T>& values) {
@@ -91,8 +94,9 @@ void take_contacts(const grains::AllPairs& system, std::size_t, Parts& parts) {
   parts.add("pairs/impulse", "N s/m", "normal and tangential impulse of the last sub-step", 2, Entity::contact, std::move(impulse));
 }
 
-/// `pushed`: with the grains' push and its work, as for grains that have one.
-Parts take(const Simulation& sim, bool pushed) {
+/// `pushed`: with the grains' push and its work, as for grains that have one. `halved`: with what is known of rejected
+/// steps, as for a run that has some.
+Parts take(const Simulation& sim, bool pushed, bool halved) {
   Parts parts;
   const std::size_t count = sim.grains.count();
   parts.add("clock/step", "-", "steps done", 1, Entity::run, std::vector<std::int64_t>{sim.clock.step});
@@ -132,6 +136,12 @@ Parts take(const Simulation& sim, bool pushed) {
   const auto& g = sim.gathering;
   parts.add("gathering", "-", "time, travel, place, residual, overlap, steps since the last record", 1, Entity::run,
             std::vector<double>{g.time, g.travel, g.position, g.residual, g.overlap, static_cast<double>(g.steps)});
+  if (halved) {
+    parts.add("clock/part", "-", "ticks since the last whole step, halvings", 1, Entity::run,
+              std::vector<std::int64_t>{sim.clock.part, sim.clock.halvings});
+    Array rejected = as_array(sim.stepping, kStepping);
+    parts.arrays.emplace_back(std::move(rejected.info), std::move(rejected.values));
+  }
   if (!pushed) return parts;
 
   std::vector<double> push;
@@ -144,11 +154,13 @@ Parts take(const Simulation& sim, bool pushed) {
   return parts;
 }
 
-Parts take(const Simulation& sim) { return take(sim, !sim.grains.push.empty()); }
+Parts take(const Simulation& sim) { return take(sim, !sim.grains.push.empty(), sim.stepping != Stepping{}); }
 
-bool is_pushed(const std::vector<Array>& state) {
-  return std::ranges::any_of(state, [](const Array& array) { return array.info.name == "grains/push"; });
+bool has(const std::vector<Array>& state, const std::string& name) {
+  return std::ranges::any_of(state, [&](const Array& array) { return array.info.name == name; });
 }
+bool is_pushed(const std::vector<Array>& state) { return has(state, "grains/push"); }
+bool is_halved(const std::vector<Array>& state) { return has(state, kStepping); }
 
 /// Hands out the arrays of a snapshot by name, typed.
 class Source {
@@ -266,7 +278,7 @@ void check_lists(const Source& source, std::size_t grain_count) {
 
 /// Throws unless `state` could be the state of this simulation.
 void check(const Simulation& sim, const std::vector<Array>& state) {
-  const Parts mine = take(sim, is_pushed(state));
+  const Parts mine = take(sim, is_pushed(state), is_halved(state));
   const auto refuse = [](const std::string& name, const char* why) { throw std::invalid_argument("state: " + name + ": " + why); };
   for (std::size_t k = 0; k < std::max(mine.arrays.size(), state.size()); ++k) {
     if (k >= state.size()) refuse(mine.arrays[k].first.name, "missing");
@@ -276,7 +288,8 @@ void check(const Simulation& sim, const std::vector<Array>& state) {
     if (state[k].info.columns != info.columns || size(state[k].values) % info.columns != 0) refuse(info.name, "of other columns");
     const bool fixed = info.entity == Entity::grain || info.name == "pile/motion" || info.name == "totals" ||
                        info.name == "push/work" || info.name == "gathering" || info.name == "clock/step" ||
-                       info.name == "blocks/bodies_count" || info.name == "list/closing";
+                       info.name == "clock/part" || info.name == kStepping || info.name == "blocks/bodies_count" ||
+                       info.name == "list/closing";
     const bool never_listed = info.name == "list/position" && (size(values) == 0 || size(state[k].values) == 0);
     if (fixed && !never_listed && size(state[k].values) != size(values)) refuse(info.name, "of another length");
   }
@@ -320,6 +333,15 @@ void restore(Simulation& sim, const std::vector<Array>& all) {
   const auto& origin = source.get<double>("grains/origin");
 
   sim.clock.step = source.get<std::int64_t>("clock/step")[0];
+  sim.clock.part = 0;
+  int halvings = 0;
+  sim.stepping = stepping_of(state, kStepping);
+  if (is_halved(state)) {
+    const auto& part = source.get<std::int64_t>("clock/part");
+    sim.clock.part = static_cast<int>(part[0]);
+    halvings = static_cast<int>(part[1]);
+  }
+  take_halvings(sim, halvings);
   for (std::size_t i = 0; i < sim.grains.count(); ++i) {
     sim.grains.disc[i].x = position[2 * i];
     sim.grains.disc[i].y = position[2 * i + 1];

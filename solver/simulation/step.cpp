@@ -28,7 +28,7 @@ namespace {
 std::vector<double> path_in_step(const Pile& pile, const Clock& clock, int substeps) {
   std::vector<double> path(substeps);
   const double start = pile::path(pile.spec.driving, clock.time());
-  const double h = clock.dt / substeps;
+  const double h = clock.size() / substeps;
   for (int k = 0; k < substeps; ++k)
     path[k] = pile::path(pile.spec.driving, clock.time() + (k + 1) * h) - start;
   return path;
@@ -49,7 +49,7 @@ grains::ContactReport advance_grains(Simulation& sim, bool keep_impulses) {
       sim.contacts);
 
   // 9. t = t + dt; the pile stands where its path has it at that time, without accumulated rounding.
-  ++sim.clock.step;
+  sim.clock.advance();
   if (sim.pile) {
     sim.pile->body.position.y = sim.pile->start - pile::path(sim.pile->spec.driving, sim.clock.time());
     sim.pile->travel += std::abs(path.back());
@@ -61,22 +61,13 @@ grains::ContactReport advance_grains(Simulation& sim, bool keep_impulses) {
 
 StepReport step(Simulation& sim, bool keep_impulses) {
   StepReport report;
-  if (sim.water && sim.clock.step % sim.water->grain_steps == 0) {
+  if (sim.water && sim.clock.begins(sim.water->grain_steps, sim.clock.halvings)) {
     report.water = step_water(sim, [](Simulation& trial) { advance_grains(trial, false); });
     if (!report.water.empty()) return report;
+    report.flowed = true;
   }
   report.contact = advance_grains(sim, keep_impulses);
   return report;
-}
-
-std::string objection(const Simulation& sim, const StepReport& report) {
-  if (!report.water.empty()) return report.water;
-  if (!report.contact.finite) return "a grain's place is not a number";
-  double smallest = 0;
-  std::visit([&](const auto& system) { smallest = system.smallest_radius; }, sim.contacts);
-  if (report.contact.longest_path > smallest)
-    return "a grain moved by more than the smallest radius within a step: reduce the step";
-  return {};
 }
 
 Trial::Trial(const Simulation& simulation) : start_(snapshot(simulation)) {}

@@ -9,14 +9,21 @@ namespace seapile::simulation {
 /// What a step admits about itself.
 struct StepReport {
   grains::ContactReport contact;
-  std::string water;  ///< why the fluid could not be advanced, one sentence; empty when it was, or was not due
+  Objection water;      ///< why the fluid could not be advanced; empty when it was, or was not due
+  bool flowed = false;  ///< it was
 };
 
 /// One time step. `keep_impulses`: so that touching_contacts() can be asked afterwards.
 StepReport step(Simulation& simulation, bool keep_impulses = false);
 
-/// Why a step cannot be accepted; empty when it can.
-std::string objection(const Simulation& simulation, const StepReport& report);
+/// Says of clock and contacts that the step is dt/2^halvings. Contacts keep their stiffness in N/m, which a law gives
+/// by its sub-step: what was at rest stays at rest.
+void take_halvings(Simulation& simulation, int halvings);
+
+/// Makes the step dt/2^halvings, of the grains and of the fluid: so often was it halved. What a step hands to the next
+/// in proportion to its size, kept impulses and the change of the grains' velocities, goes with it. The clock stands
+/// where such a step begins.
+void set_halvings(Simulation& simulation, int halvings);
 
 /// A stretch of steps on trial: the state at its start, to go back to when a step of it is not acceptable.
 class Trial {

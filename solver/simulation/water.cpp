@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/basin/remesh.h"
 #include "solver/simulation/simulation.h"
 
 namespace seapile::simulation {
@@ -49,6 +50,32 @@ Water water_around(const Simulation& sim, const basin::BasinSpec& spec, const co
   water.basin.past.level[0].porosity = water.expected.porosity.phi;
   water.around = coupling::surroundings(water.basin.flow, water.expected.deposit);
   return water;
+}
+
+void remesh_water(Simulation& sim) {
+  Water& water = *sim.water;
+  const double dt = water.basin.clock.size();
+  coupling::OnMesh renewed;
+  basin::remesh(water.basin, [&](fluid::Flow& flow) {
+    water.location = coupling::Location(flow.mesh);
+    const auto put = [&](std::vector<grains::Disc> disc) {
+      return coupling::put_on(flow.mesh, water.location, std::move(disc), water.coupling.porosity,
+                              sim.team.instructions, sim.team.crew.get());
+    };
+    std::vector<grains::Disc> before = water.expected.disc;
+    const std::vector<base::Vec2> velocity = velocities_of(sim);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      before[i].x -= dt * velocity[i].x;
+      before[i].y -= dt * velocity[i].y;
+    }
+    const coupling::OnMesh from = put(std::move(before));
+    renewed = put(water.expected.disc);
+    flow.porosity = renewed.porosity.phi;
+    for (std::size_t v = 0; v < flow.porosity.size(); ++v)
+      flow.porosity_rate[v] = (flow.porosity[v] - from.porosity.phi[v]) / dt;
+  });
+  water.expected = std::move(renewed);
+  water.around = coupling::surroundings(water.basin.flow, water.expected.deposit);
 }
 
 }  // namespace seapile::simulation

@@ -3,9 +3,9 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "solver/base/objection.h"
 #include "solver/base/profile.h"
 #include "solver/basin/basin.h"
 #include "solver/basin/pile_force.h"
@@ -54,9 +54,13 @@ Water water_around(const Simulation& simulation, const basin::BasinSpec& basin, 
                    double grain_density);
 
 /// One step of the fluid from the present time, and what it does to the grains during that step (grains.push). Empty
-/// when it is done; otherwise one sentence, and grains and flow are as they were. `advance_grains`: one step of theirs,
-/// for schemes that try it.
-std::string step_water(Simulation& simulation, const std::function<void(Simulation&)>& advance_grains);
+/// when it is done; otherwise why it cannot be, and grains and flow are as they were. `advance_grains`: one step of
+/// theirs, for schemes that try it.
+base::Objection step_water(Simulation& simulation, const std::function<void(Simulation&)>& advance_grains);
+
+/// A new mesh for the water as it is, where a step of the fluid begins. Throws mesh::NoMesh; the water is then as it
+/// was.
+void remesh_water(Simulation& simulation);
 
 /// Closes the record of the water since the last one and begins the next.
 FlowRecord take_flow_record(Simulation& simulation);

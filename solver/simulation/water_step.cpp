@@ -42,7 +42,7 @@ class WaterStep {
   explicit WaterStep(Simulation& sim)
       : sim_(sim),
         water_(*sim.water),
-        dt_(water_.basin.spec.time.step),
+        dt_(water_.basin.clock.size()),
         in_deposit_(sim.profile.index("porosity")),
         in_exchange_(sim.profile.index("exchange")),
         velocity_(velocities_of(sim)) {
@@ -78,7 +78,7 @@ class WaterStep {
   }
 
   /// Advances the fluid. Empty when it is done; otherwise nothing has changed.
-  std::string solve(Outlook ahead) {
+  base::Objection solve(Outlook ahead) {
     const coupling::Suspended suspended = {sim_.grains.mass, drag_, ahead.velocity};
     then_.disc = std::move(ahead.disc);
     renewed_.reset();
@@ -182,21 +182,21 @@ class WaterStep {
 /// What a solve that keeps its mesh changes of a basin.
 struct BasinBefore {
   explicit BasinBefore(const basin::Basin& b)
-      : flow(b.flow), top(b.top), past(b.past), past_tip(b.past_tip), past_flux(b.past_flux), step(b.step) {}
+      : flow(b.flow), top(b.top), past(b.past), past_tip(b.past_tip), past_flux(b.past_flux), clock(b.clock) {}
   void put_back(basin::Basin& b) const {
     b.flow = flow;
     b.top = top;
     b.past = past;
     b.past_tip = past_tip;
     b.past_flux = past_flux;
-    b.step = step;
+    b.clock = clock;
   }
   fluid::Flow flow;
   fluid::FreeSurface top;
   fluid::Past past;
   std::vector<double> past_tip;
   std::vector<std::vector<double>> past_flux;
-  std::int64_t step;
+  base::Clock clock;
 };
 
 /// What the grains are before a trial of theirs.
@@ -218,11 +218,11 @@ struct GrainsBefore {
 };
 
 /// Solves, lets the grains go on trial, and solves again with what they did.
-std::string solve_twice(Simulation& sim, WaterStep& step, const std::function<void(Simulation&)>& advance_grains) {
+base::Objection solve_twice(Simulation& sim, WaterStep& step, const std::function<void(Simulation&)>& advance_grains) {
   basin::Basin& basin = sim.water->basin;
   const BasinBefore basin_before(basin);
   const auto remesh = std::exchange(basin.spec.mesh.remesh, std::nullopt);
-  std::string why = step.solve(step.from_last_step());
+  base::Objection why = step.solve(step.from_last_step());
   basin.spec.mesh.remesh = remesh;
   if (!why.empty()) return why;
 
@@ -237,10 +237,11 @@ std::string solve_twice(Simulation& sim, WaterStep& step, const std::function<vo
 
 }  // namespace
 
-std::string step_water(Simulation& sim, const std::function<void(Simulation&)>& advance_grains) {
+base::Objection step_water(Simulation& sim, const std::function<void(Simulation&)>& advance_grains) {
   WaterStep step(sim);
-  const std::string why = sim.water->coupling.scheme == coupling::Scheme::once ? step.solve(step.from_last_step())
-                                                                               : solve_twice(sim, step, advance_grains);
+  const base::Objection why = sim.water->coupling.scheme == coupling::Scheme::once
+                                  ? step.solve(step.from_last_step())
+                                  : solve_twice(sim, step, advance_grains);
   if (why.empty()) step.finish();
   return why;
 }

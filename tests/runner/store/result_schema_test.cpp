@@ -153,6 +153,7 @@ TEST(ResultSchema, ListsWhatIsInEveryFileOfARun) {
   writer.add(sample::frame(0));
   writer.add(sample::flow_frame(0));
   writer.checkpoint(sample::state(1));
+  writer.post_mortem(sample::state(2), "a grain left the box");
 
   const std::map<std::string, Path> files = {
       {"series.h5", both / "series.h5"},
@@ -163,7 +164,8 @@ TEST(ResultSchema, ListsWhatIsInEveryFileOfARun) {
       {"flow.vtkhdf", flow / "flow.vtkhdf"},
       {"surface.h5", flow / "surface.h5"},
       {"segment/NNNNNN.h5", scratch.path() / "running" / "0001" / "segment" / "000001.h5"},
-      {"checkpoint/a.h5 and checkpoint/b.h5", scratch.path() / "running" / "0001" / "checkpoint" / "a.h5"}};
+      {"checkpoint/a.h5 and checkpoint/b.h5", scratch.path() / "running" / "0001" / "checkpoint" / "a.h5"},
+      {"post_mortem.h5", scratch.path() / "running" / "0001" / "post_mortem.h5"}};
   const auto pages = tables();
   for (const auto& [title, file] : files) {
     ASSERT_TRUE(pages.contains(title)) << title;

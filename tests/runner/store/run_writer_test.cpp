@@ -179,6 +179,7 @@ TEST_F(Writer, KeepsCheckpointsAndSegmentsOfARunThatDiverged) {
   simulation::RunResult result = sample::drive_result();
   result.outcome = simulation::Outcome::diverged;
   result.reason = "a grain left the box";
+  writer.post_mortem(sample::state(2), result.reason);
   writer.finish(result, sample::provenance(), nullptr);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "checkpoint" / "a.h5"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "segment" / "000001.h5"));
@@ -186,7 +187,8 @@ TEST_F(Writer, KeepsCheckpointsAndSegmentsOfARunThatDiverged) {
   EXPECT_EQ(manifest.result.reason, "a grain left the box");
   std::set<std::string> paths;
   for (const FileEntry& file : manifest.files) paths.insert(file.path);
-  EXPECT_TRUE(paths.contains("checkpoint/a.h5") && paths.contains("segment/000001.h5"));
+  EXPECT_TRUE(paths.contains("checkpoint/a.h5") && paths.contains("segment/000001.h5") &&
+              paths.contains("post_mortem.h5"));
   EXPECT_EQ(verify(folder_), std::vector<std::string>{});
 }
 

@@ -46,7 +46,7 @@ inline Basin filled(const BasinSpec& spec) { return basin::filled(spec, base::fa
 inline std::string run(Basin& basin, int steps) {
   base::Profile profile;
   for (int i = 0; i < steps; ++i)
-    if (std::string why = step(basin, profile); !why.empty()) return why;
+    if (std::string why = step(basin, profile).why; !why.empty()) return why;
   return {};
 }
 

@@ -30,7 +30,7 @@ double error_of(const BasinSpec& spec, double duration) {
   const double a0 = std::get<CosineSurface>(spec.surface->initial).amplitude;
   double largest = 0;
   while (time_of(basin) < duration - 1e-9) {
-    const std::string why = step(basin, profile);
+    const std::string why = step(basin, profile).why;
     EXPECT_EQ(why, "");
     if (!why.empty()) return 1;
     // The mode's share in the heights, by the trapezium rule: exact for cosines on an even grid.

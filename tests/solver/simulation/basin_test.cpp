@@ -31,6 +31,9 @@ basin::BasinSpec driven() {
   return spec;
 }
 
+/// Steps of a stretch: as many as between two records at least.
+constexpr int kStretch = 10;
+
 struct Told {
   std::vector<FlowRecord> records;
   std::vector<FlowFrame> frames;
@@ -48,7 +51,7 @@ Told told(const basin::BasinSpec& spec, const scene::RecordSpec& record, const s
     hooks.checkpoint_due = [] { return true; };
     hooks.checkpoint = [&](const std::vector<Array>& state) { all.states.push_back(state); };
   }
-  all.result = run_basin(spec, record, {1, simd}, from, so_far, hooks);
+  all.result = run_basin(spec, record, {1, simd, {kStretch}}, from, so_far, hooks);
   EXPECT_EQ(all.result.outcome, Outcome::completed) << all.result.reason;
   return all;
 }

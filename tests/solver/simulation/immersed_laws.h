@@ -11,6 +11,7 @@
 
 #include "solver/coupling/deposit.h"
 #include "solver/coupling/drag.h"
+#include "solver/simulation/objection.h"
 #include "tests/support/immersed_scene.h"
 
 namespace seapile::simulation {
@@ -78,7 +79,7 @@ inline void hold_inflow(Simulation& sim, double u) {
 }
 
 /// One step that nothing objects to.
-inline void take_step(Simulation& sim) { ASSERT_EQ(objection(sim, step(sim)), ""); }
+inline void take_step(Simulation& sim) { ASSERT_EQ(objection(sim, step(sim)).why, ""); }
 inline void take_steps(Simulation& sim, int count) {
   for (int k = 0; k < count && !testing::Test::HasFatalFailure(); ++k) take_step(sim);
 }

@@ -30,6 +30,9 @@ scene::SceneSpec scene_of_2000(const pile::Tip& tip) {
   return scene;
 }
 
+/// A run that is asked after each step whether to stop.
+constexpr Execution kAskedOften{1, Simd::best, {1}};
+
 scene::RecordSpec two_frames() {
   scene::RecordSpec record;
   record.frames = {0.02, 0.08};
@@ -141,7 +144,7 @@ Drive stopped_and_resumed(const scene::SceneSpec& scene, std::size_t stop_after,
   RunHooks hooks = keeping(before);
   hooks.stop = [&] { return before.records.size() >= stop_after; };
   hooks.checkpoint = [&](const std::vector<Array>& s) { state = s; };
-  before.result = run(scene, two_frames(), settled(scene.bed), {}, {}, {}, hooks);
+  before.result = run(scene, two_frames(), settled(scene.bed), kAskedOften, {}, {}, hooks);
   EXPECT_EQ(before.result.outcome, Outcome::stopped);
 
   Drive whole = before;
@@ -180,7 +183,7 @@ TEST(Reproducibility, EveryMethodIsStoppedAndRestoredWithTheSameBits) {
       RunHooks hooks = keeping(found);
       hooks.stop = [&] { return found.records.size() >= 40; };
       hooks.checkpoint = [&](const std::vector<Array>& s) { state = s; };
-      run(scene, record, settled(scene.bed), {}, {}, {}, hooks);
+      run(scene, record, settled(scene.bed), kAskedOften, {}, {}, hooks);
       ASSERT_FALSE(state.empty());
       found.result = run(scene, record, settled(scene.bed), {2, Simd::best}, state, {found.records, {}}, keeping(found));
       expect_same_run(found, expected, rigid ? "non-smooth" : "soft");
@@ -195,7 +198,7 @@ TEST(Reproducibility, CheckpointsOnTheWayChangeNoBit) {
   RunHooks hooks = keeping(run);
   hooks.checkpoint_due = [&] { return run.records.size() % 7 == 0; };
   hooks.checkpoint = [&](const std::vector<Array>&) { ++sealed; };
-  run.result = simulation::run(scene, two_frames(), settled(scene.bed), {}, {}, {}, hooks);
+  run.result = simulation::run(scene, two_frames(), settled(scene.bed), kAskedOften, {}, {}, hooks);
   expect_same_run(run, undisturbed(false), "with checkpoints");
   EXPECT_GT(sealed, 15);
 }

@@ -16,6 +16,7 @@ namespace {
 
 using support::drive;
 using support::Drive;
+using support::metric;
 using support::settled;
 using support::small_drive;
 using support::small_record;
@@ -110,16 +111,18 @@ TEST(RunEnd, AnEndAboveTheStartIsReachedAtOnce) {
 
 /// A flat pile that is on its way, and the hooks that keep its states.
 struct Halted {
+  scene::SceneSpec scene;
   Drive run;
   std::vector<Array> state;
 };
-Halted halted_after(int records) {
-  Halted halted;
+Halted halted_after(int records, grains::Precision precision = grains::Precision::single_) {
+  Halted halted{drive_of_300(pile::FlatTip{}), {}, {}};
+  halted.scene.contact.precision = precision;
   RunHooks hooks = keeping(halted.run);
   hooks.stop = [&] { return static_cast<int>(halted.run.records.size()) >= records; };
   hooks.checkpoint = [&](const std::vector<Array>& state) { halted.state = state; };
-  const scene::SceneSpec scene = drive_of_300(pile::FlatTip{});
-  halted.run.result = run(scene, small_record(), settled(scene.bed), {}, {}, {}, hooks);
+  const Execution asked_often{1, Simd::best, {1}};
+  halted.run.result = run(halted.scene, small_record(), settled(halted.scene.bed), asked_often, {}, {}, hooks);
   return halted;
 }
 
@@ -132,57 +135,90 @@ TEST(RunEnd, StopsOnRequestWithACheckpoint) {
   EXPECT_EQ(values<std::int64_t>(halted.state, "clock/step")[0], std::lround(halted.run.result.time / kStep));
 }
 
-/// Resumes from a state that was tampered with.
-Drive resumed_with(std::vector<Array> state, const char* name, std::size_t index, double value,
-                   std::vector<Array>* sealed) {
+/// What comes of a state that was tampered with.
+struct Resumed {
+  Drive run;
+  std::vector<Array> sealed, rejected;
+  std::string reason;  ///< of the post-mortem
+};
+Resumed resumed(const Halted& halted, const std::vector<Array>& from) {
+  Resumed resumed;
+  RunHooks hooks = keeping(resumed.run);
+  hooks.checkpoint = [&](const std::vector<Array>& state) {
+    EXPECT_TRUE(resumed.rejected.empty()) << "the last accepted state is sealed first";
+    resumed.sealed = state;
+  };
+  hooks.post_mortem = [&](const std::vector<Array>& state, const std::string& reason) {
+    resumed.rejected = state;
+    resumed.reason = reason;
+  };
+  resumed.run.result = run(halted.scene, small_record(), settled(halted.scene.bed), {}, from, {}, hooks);
+  return resumed;
+}
+Resumed resumed_with(const Halted& halted, const char* name, std::size_t index, double value) {
+  std::vector<Array> state = halted.state;
   for (Array& array : state) {
     if (array.info.name != name) continue;
     std::visit([&](auto& v) { v[index] = static_cast<std::decay_t<decltype(v[index])>>(value); }, array.values);
   }
-  Drive run;
-  RunHooks hooks = keeping(run);
-  hooks.checkpoint = [&](const std::vector<Array>& s) { *sealed = s; };
-  const scene::SceneSpec scene = drive_of_300(pile::FlatTip{});
-  run.result = simulation::run(scene, small_record(), settled(scene.bed), {}, state, {}, hooks);
-  return run;
+  return resumed(halted, state);
+}
+/// A grain 30 m above the bed that falls at `speed` [m/s].
+Resumed resumed_falling(Halted halted, double speed) {
+  for (Array& array : halted.state)
+    if (array.info.name == "grains/position") std::get<std::vector<double>>(array.values)[301] = 30;
+  return resumed_with(halted, "grains/velocity", 301, -speed);
 }
 
 TEST(RunEnd, APlaceThatIsNoNumberEndsAsDiverged) {
   const Halted halted = halted_after(100);
-  std::vector<Array> sealed;
-  const Drive run =
-      resumed_with(halted.state, "grains/position", 301, std::numeric_limits<double>::quiet_NaN(), &sealed);
-  EXPECT_EQ(run.result.outcome, Outcome::diverged);
-  EXPECT_THAT(run.result.reason, HasSubstr("not a number"));
-  EXPECT_TRUE(run.records.empty()) << "nothing is recorded of a state that is none";
+  const Resumed after = resumed_with(halted, "grains/position", 301, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(after.run.result.outcome, Outcome::diverged);
+  EXPECT_THAT(after.run.result.reason, HasSubstr("not a number"));
+  EXPECT_TRUE(after.run.records.empty()) << "nothing is recorded of a state that is none";
+  EXPECT_EQ(metric(after.run.result.metrics, "steps_rejected_not_finite"), 9) << "the step, and eight halvings of it";
 }
 
-// A grain 30 m above the bed that falls at 21.5 m/s becomes too fast for the step, 0.0112 m per 0.5 ms, after 0.1 s:
-// the run ends, and hands out the last state from which it could go on, at most 100 steps before.
-TEST(RunEnd, ADivergedRunHandsOutItsLastGoodState) {
+// It becomes too fast for the step, 0.0112 m per 0.5 ms, after 0.1 s: from there on it is followed with half the step.
+TEST(RunEnd, AGrainThatIsTooFastForTheStepIsFollowedWithSmallerOnes) {
   const Halted halted = halted_after(100);
-  std::vector<Array> high = halted.state;
-  for (Array& array : high)
-    if (array.info.name == "grains/position") std::get<std::vector<double>>(array.values)[301] = 30;
-  std::vector<Array> sealed;
-  const Drive run = resumed_with(high, "grains/velocity", 301, -21.5, &sealed);
-  EXPECT_EQ(run.result.outcome, Outcome::diverged);
-  EXPECT_THAT(run.result.reason, HasSubstr("reduce the step"));
-  ASSERT_FALSE(sealed.empty());
-  const auto step_of = [](const std::vector<Array>& state) { return values<std::int64_t>(state, "clock/step")[0]; };
-  EXPECT_GT(step_of(sealed), step_of(halted.state)) << "not the state that it was given";
-  EXPECT_NEAR(run.result.time, static_cast<double>(step_of(sealed)) * kStep, 1e-12)
-      << "it stands where it went back to";
-  for (const double v : values<float>(sealed, "grains/velocity")) EXPECT_TRUE(std::isfinite(v));
+  const Resumed after = resumed_falling(halted, 21.5);
+  EXPECT_EQ(after.run.result.outcome, Outcome::completed) << after.run.result.reason;
+  EXPECT_TRUE(after.rejected.empty());
+  EXPECT_GE(metric(after.run.result.metrics, "steps_rejected_path"), 1);
+  EXPECT_EQ(metric(after.run.result.metrics, "steps_rejected"),
+            metric(after.run.result.metrics, "steps_rejected_path"));
+  EXPECT_EQ(metric(after.run.result.metrics, "step_smallest"), kStep / 2);
+  for (std::size_t k = 1; k < after.run.records.size(); ++k)
+    EXPECT_GT(after.run.records[k].time, after.run.records[k - 1].time) << "none is handed out twice";
+}
 
-  // From there it goes the same way again.
-  std::vector<Array> again;
-  const scene::SceneSpec scene = drive_of_300(pile::FlatTip{});
-  RunHooks hooks;
-  hooks.checkpoint = [&](const std::vector<Array>& s) { again = s; };
-  const RunResult repeated = simulation::run(scene, small_record(), settled(scene.bed), {}, sealed, {}, hooks);
-  EXPECT_EQ(repeated.outcome, Outcome::diverged);
-  EXPECT_EQ(repeated.reason, run.result.reason);
+// In the smallest step, dt/256, it goes almost as far as the smallest radius, and farther soon after: the run ends, and
+// hands out the last state from which it could go on, and the one that could not be accepted.
+TEST(RunEnd, ADivergedRunHandsOutItsLastGoodStateAndTheRejectedOne) {
+  const Halted halted = halted_after(100, grains::Precision::double_);
+  const double smallest = std::ranges::min(values<double>(halted.state, "grains/radius"));
+  const Resumed after = resumed_falling(halted, (1 - 1e-6) * smallest / (kStep / 256));
+  const std::vector<Array>& sealed = after.sealed;
+  EXPECT_EQ(after.run.result.outcome, Outcome::diverged);
+  EXPECT_THAT(after.run.result.reason, HasSubstr("reduce the step"));
+  EXPECT_EQ(after.reason, after.run.result.reason);
+  EXPECT_EQ(metric(after.run.result.metrics, "step_smallest"), kStep / 256);
+  ASSERT_FALSE(sealed.empty());
+  const auto ticks_of = [](const std::vector<Array>& state) {
+    return 256 * values<std::int64_t>(state, "clock/step")[0] + values<std::int64_t>(state, "clock/part")[0];
+  };
+  EXPECT_GT(ticks_of(sealed), 256 * values<std::int64_t>(halted.state, "clock/step")[0]) << "not what it was given";
+  EXPECT_NEAR(after.run.result.time, static_cast<double>(ticks_of(sealed)) / 256 * kStep, 1e-12)
+      << "it stands where it went back to";
+  for (const double v : values<double>(sealed, "grains/velocity")) EXPECT_TRUE(std::isfinite(v));
+  ASSERT_FALSE(after.rejected.empty());
+  EXPECT_GT(ticks_of(after.rejected), ticks_of(sealed));
+  EXPECT_LE(ticks_of(after.rejected), ticks_of(sealed) + 100);
+
+  const Resumed again = resumed(halted, sealed);
+  EXPECT_EQ(again.run.result.outcome, Outcome::diverged);
+  EXPECT_EQ(again.run.result.reason, after.run.result.reason) << "from there it goes the same way again";
 }
 
 TEST(RunEnd, AStateOfAnotherBedIsRefused) {

@@ -1,0 +1,160 @@
+// Each cause for which a step is rejected, made on purpose: seen at that step, by its name.
+#include "solver/simulation/objection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "solver/basin/step.h"
+#include "solver/simulation/bounds.h"
+#include "solver/simulation/build.h"
+#include "tests/support/scenes.h"
+
+namespace seapile::simulation {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kPressure10 = 32;  // of the eleventh vertex: no value that is held
+
+scene::SceneSpec wet() {
+  scene::SceneSpec scene = support::small_drive(150, 0.6, pile::ConicalTip{});
+  scene.bed.domain.height = 1.2;
+  scene::FluidSpec& fluid = scene.fluid.emplace();
+  fluid.depth = 0.9;
+  fluid.mesh.size = 0.12;
+  fluid.mesh.pile_size = 0.08;
+  fluid.mesh.motion = basin::ZonesMotion{0.2};
+  fluid.time.step = 1e-3;
+  return scene;
+}
+
+/// Where a step of the fluid begins.
+Simulation started(const scene::SceneSpec& scene) {
+  Simulation sim = build(scene, support::settled(scene.bed), {});
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(objection(sim, step(sim)).why, "");
+  return sim;
+}
+
+Objection after_a_step(Simulation& sim) { return objection(sim, step(sim)); }
+
+basin::Basin wave() {
+  basin::BasinSpec spec;
+  spec.surface->initial = basin::CosineSurface{0.01, 1};
+  spec.mesh.pattern = basin::StructuredMesh{16, 4};
+  spec.time.step = 5e-3;
+  basin::Basin basin = basin::filled(spec, base::InstructionSet::generic);
+  base::Profile profile;
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(step(basin, profile).why, "");
+  return basin;
+}
+
+Objection after_a_step(basin::Basin& basin) {
+  base::Profile profile;
+  Objection why = step(basin, profile);
+  return why.empty() ? objection(basin) : why;
+}
+
+#define EXPECT_CAUSE(objection_, cause_)                                        \
+  do {                                                                          \
+    const Objection found = objection_;                                         \
+    EXPECT_FALSE(found.empty());                                                \
+    EXPECT_STREQ(text_of(found.cause).name, text_of(cause_).name) << found.why; \
+  } while (false)
+
+TEST(Objection, AMotionThatIsNoNumberIsSeenAtOnce) {
+  for (const auto precision : {grains::Precision::single_, grains::Precision::double_})
+    for (const bool saturated : {false, true}) {
+      scene::SceneSpec scene = wet();
+      if (!saturated) scene.fluid.reset();
+      scene.contact.precision = precision;
+      Simulation sim = started(scene);
+      std::visit([](auto& system) { system.motion(75).vx = NAN; }, sim.contacts);
+      EXPECT_CAUSE(after_a_step(sim), Cause::not_finite);
+    }
+}
+
+TEST(Objection, ASpinThatIsNoNumberIsSeenBeforeTheStretchIsAccepted) {
+  scene::SceneSpec scene = wet();
+  scene.fluid.reset();
+  Simulation sim = started(scene);
+  const EnergyLevel before = energy_level(sim);
+  EXPECT_EQ(stretch_objection(sim, before).why, "");
+  std::visit([](auto& system) { system.motion(75).u = NAN; }, sim.contacts);
+  EXPECT_CAUSE(stretch_objection(sim, before), Cause::not_finite);
+}
+
+TEST(Objection, AFlowThatIsNoNumberIsSeenAtOnce) {
+  Simulation sim = started(wet());
+  sim.water->basin.past.level[0].unknown[kPressure10] = kNaN;
+  EXPECT_CAUSE(after_a_step(sim), Cause::not_finite);
+  basin::Basin before = wave(), after = wave();
+  before.past.level[0].unknown[kPressure10] = kNaN;
+  EXPECT_CAUSE(after_a_step(before), Cause::not_finite);
+  after.flow.unknown[kPressure10] = kNaN;
+  EXPECT_CAUSE(objection(after), Cause::not_finite);
+}
+
+TEST(Objection, ASurfaceThatIsNoNumberIsSeenAtOnce) {
+  basin::Basin before = wave(), after = wave();
+  before.past.level[0].position[static_cast<std::size_t>(before.top.vertex[3])].y = kNaN;
+  EXPECT_CAUSE(after_a_step(before), Cause::not_finite);
+  after.top.height[3] = kNaN;
+  EXPECT_CAUSE(objection(after), Cause::not_finite);
+}
+
+TEST(Objection, WhatIsReportedIsHeldAgainstItsBound) {
+  scene::SceneSpec scene = wet();
+  Simulation sim = started(scene);
+  const double smallest = std::visit([](const auto& system) { return system.smallest_radius; }, sim.contacts);
+  for (const double beyond : {1.001, kNaN}) {
+    StepReport report;
+    report.contact.longest_path = beyond * kLongestPath * smallest;
+    EXPECT_CAUSE(objection(sim, report), Cause::path);
+    report.contact.longest_path = 0;
+    report.contact.residual = beyond * kSoftBounds.residual * smallest / sim.law.step;
+    EXPECT_CAUSE(objection(sim, report), Cause::residual);
+    EXPECT_CAUSE(overlap_objection(sim, beyond * kSoftBounds.overlap), Cause::overlap);
+  }
+  EXPECT_EQ(overlap_objection(sim, 0.999 * kSoftBounds.overlap).why, "");
+
+  StepReport flowed;
+  flowed.flowed = true;
+  EXPECT_EQ(objection(sim, flowed).why, "");
+  const coupling::Porosity good = sim.water->expected.porosity;
+  sim.water->expected.porosity.lowest = kNaN;
+  EXPECT_CAUSE(objection(sim, flowed), Cause::porosity);
+  sim.water->expected.porosity = good;
+  sim.water->expected.porosity.clipped = 1;
+  EXPECT_CAUSE(objection(sim, flowed), Cause::porosity);
+  sim.water->expected.porosity = good;
+  sim.water->basin.volume_at_start *= 1 + 2 * kVolumeChange;
+  EXPECT_CAUSE(objection(sim, flowed), Cause::volume);
+}
+
+TEST(Objection, AFlowThatIsNotSolvedHasItsCause) {
+  basin::Basin basin = wave();
+  basin.solver.tolerance = -1;
+  EXPECT_CAUSE(after_a_step(basin), Cause::flow);
+}
+
+TEST(Objection, GrainsThatOverlapOrGainEnergyAreNotAccepted) {
+  scene::SceneSpec scene = wet();
+  scene.fluid.reset();
+  scene.pile->driving = pile::ConstantDriving{0};
+  scene.contact.solver = grains::Solver::brute_force;  // it has no lists that a grain can be put past
+  Simulation sim = started(scene);
+  const EnergyLevel before = energy_level(sim);
+  std::visit([](auto& system) { system.motion(75).vy = 3; }, sim.contacts);
+  EXPECT_CAUSE(stretch_objection(sim, before), Cause::energy);
+  // No step leaves them as deep as that: it is their state that says so. One that leaves the other is not counted.
+  std::visit([](auto& system) { system.motion(75).vy = 0; }, sim.contacts);
+  grains::Disc& one = sim.grains.disc[75];
+  one.x = sim.grains.disc[76].x;
+  one.y = sim.grains.disc[76].y + 0.3 * one.radius;
+  step(sim);
+  EXPECT_CAUSE(stretch_objection(sim, energy_level(sim)), Cause::overlap);
+}
+
+}  // namespace
+}  // namespace seapile::simulation
