@@ -9,6 +9,7 @@
 
 #include "solver/grains/packing.h"
 #include "solver/pile/pile.h"
+#include "solver/scene/analysis.h"
 #include "solver/simulation/settle.h"
 #include "solver/simulation/state.h"
 
@@ -98,8 +99,9 @@ Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double fr
   return sim;
 }
 
-Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution,
+Simulation build(const scene::SceneSpec& asked, const Bed& bed, const Execution& execution,
                  const std::vector<Array>& resume_from) {
+  const scene::SceneSpec scene = scene::as_built(asked);
   const std::vector<Array> start = !scene.fluid          ? bed.grains
                                    : resume_from.empty() ? immersed(scene, bed, execution)
                                                          : origins_of(resume_from);
