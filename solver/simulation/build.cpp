@@ -41,6 +41,11 @@ double weight_in_fluid(const scene::SceneSpec& scene) {
   return scene.fluid ? g * (1 - scene.fluid->density / scene.bed.grains.density) : g;
 }
 
+/// Grains that do not spin have an infinite moment of inertia.
+double twist_of(const scene::ModelSpec& model) {
+  return model.rotation == scene::Rotation::yes ? grains::ContactLaw{}.twist : 0;
+}
+
 Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contact, grains::Grains grains,
                     const Execution& execution) {
   Simulation sim;
@@ -74,6 +79,7 @@ const std::vector<T>& values(const std::vector<Array>& arrays, const std::string
 std::vector<Array> immersed(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution) {
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
   sim.law.gravity = weight_in_fluid(scene);
+  sim.law.twist = twist_of(scene.model);
   std::vector<Record> unused;
   settle(sim, scene.bed.preparation.longest, unused, [](double) {});
   return arrays_of(sim.grains);
@@ -107,6 +113,7 @@ Simulation build(const scene::SceneSpec& asked, const Bed& bed, const Execution&
                                                          : origins_of(resume_from);
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(start, scene.bed.grains.density), execution);
   sim.law.gravity = weight_in_fluid(scene);
+  sim.law.twist = twist_of(scene.model);
   if (static_cast<std::int64_t>(sim.grains.count()) != scene.bed.grains.count)
     throw std::invalid_argument("the bed has " + std::to_string(sim.grains.count()) + " grains, the scene " +
                                 std::to_string(scene.bed.grains.count));
