@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runner/commands/command.h"
 #include "runner/commands/edges.h"
 #include "runner/commands/packings.h"
 #include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/present/run_text.h"
 #include "runner/present/summary.h"
 #include "runner/store/catalogue.h"
 #include "runner/study/study.h"
@@ -128,7 +130,12 @@ int run(const RunArguments& arguments) {
       if (options.packings) continue;
     }
     for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
-    if (arguments.dry_run) return execute::kDone;
+    if (arguments.dry_run) {
+      std::vector<scene::SceneSpec> scenes;
+      for (const study::Case& one : study.cases) scenes.push_back(one.scene);
+      for (const std::string& line : present::decision_lines(scenes)) fmt::print(stderr, "{}\n", line);
+      return execute::kDone;
+    }
     if (idle) fmt::print(stderr, "nothing to run: every case is fresh\n");
 
     const int code = campaign.carry_out();

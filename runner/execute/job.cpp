@@ -148,7 +148,7 @@ class Job {
 
   int flow(store::RunWriter& writer) {
     const store::Resumable& resumable = writer.resumable();
-    const scene::SceneSpec& scene = request_.scene;
+    const scene::SceneSpec scene = scene::as_built(request_.scene);
     if (scene.jet) {
       const auto hooks = hooked<simulation::JetHooks>(writer);
       return end(writer, simulation::run_jet(*scene.jet, execution(), resumable.state, hooks));

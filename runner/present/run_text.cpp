@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "runner/present/table.h"
@@ -82,9 +83,7 @@ std::string run_text(const store::Manifest& manifest, const std::filesystem::pat
   line("again with", command);
 
   text += "\nparts\n";
-  for (const simulation::Part& part : header.parts) {
-    text += fmt::format("  {:<14} {:<9} {}\n", part.name, part.built ? "built" : "left out", part.reason);
-  }
+  for (const scene::Decision& part : header.parts) text += "  " + part_line(part) + "\n";
   text += "\nmetrics\n" + metrics_text(manifest.result);
   text += "\nparameters (SI)\n";
   add_values(text, ordered_json::parse(header.scene_json), "");
@@ -102,6 +101,33 @@ std::string run_text(const store::Manifest& manifest, const std::filesystem::pat
   text += "\nnumerics\n";
   for (const auto& [module, version] : header.numerics) text += fmt::format("  {:<14} {}\n", module, version);
   return text + "\nmade with\n" + provenance_text(manifest.provenance);
+}
+
+std::string part_line(const scene::Decision& part) {
+  std::string line = fmt::format("{:<15} {:<9} {}", part.name, part.built ? "built" : "left out", part.reason);
+  if (part.criterion)
+    line += fmt::format("; without it: at most {:.2g} of {}", part.criterion->bound, part.criterion->answer);
+  return line;
+}
+
+std::vector<std::string> decision_lines(const std::vector<scene::SceneSpec>& scenes) {
+  std::vector<std::string> lines;
+  std::vector<std::size_t> cases;
+  for (const scene::SceneSpec& scene : scenes)
+    for (const scene::Decision& part : scene::decisions(scene)) {
+      if (!part.criterion && part.by == scene::By::scene) continue;
+      const std::string line = part_line(part);
+      const auto known = std::ranges::find(lines, line);
+      if (known == lines.end()) {
+        lines.push_back(line);
+        cases.push_back(1);
+      } else {
+        ++cases[static_cast<std::size_t>(known - lines.begin())];
+      }
+    }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (cases[i] < scenes.size()) lines[i] = fmt::format("{} ({} of {} cases)", lines[i], cases[i], scenes.size());
+  return lines;
 }
 
 std::string study_text(const store::Manifest& manifest) {

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 using simulation::Outcome;
 
 constexpr const char* kOutcomes[] = {"completed", "diverged", "stopped"};
+constexpr const char* kBy[] = {"scene", "asked"};
 constexpr std::string_view kSealHead = ",\n  \"seal\": \"";
 constexpr std::string_view kSealTail = "\"\n}\n";
 constexpr std::size_t kDigestDigits = 64;
@@ -46,7 +47,17 @@ Json from_header(const RunHeader& header) {
   if (!header.bed_id.empty()) bed = Json{{"case", header.bed_id}, {"run", header.bed_run}};
   Json parts = Json::array(), numerics = Json::object();
   for (const simulation::Part& part : header.parts) {
-    parts.push_back(Json{{"name", part.name}, {"built", part.built}, {"reason", part.reason}});
+    Json entry{{"name", part.name},
+               {"built", part.built},
+               {"reason", part.reason},
+               {"by", kBy[static_cast<std::size_t>(part.by)]}};
+    if (part.criterion)
+      entry["criterion"] = Json{{"quantity", part.criterion->quantity},
+                                {"number", from_number(part.criterion->number)},
+                                {"threshold", from_number(part.criterion->threshold)},
+                                {"bound", from_number(part.criterion->bound)},
+                                {"answer", part.criterion->answer}};
+    parts.push_back(std::move(entry));
   }
   for (const simulation::NumericsVersion& module : header.numerics) numerics[module.module] = module.version;
   return {{"kind", header.kind},
@@ -71,7 +82,15 @@ RunHeader to_header(const Json& json) {
   header.scene_json = text_of(json.at("scene"));
   header.record_json = text_of(json.at("record"));
   for (const Json& part : json.at("parts")) {
-    header.parts.push_back({part.at("name"), part.at("built"), part.at("reason")});
+    simulation::Part& read = header.parts.emplace_back();
+    read.name = part.at("name");
+    read.built = part.at("built");
+    read.reason = part.at("reason");
+    read.by = part.value("by", kBy[0]) == kBy[1] ? scene::By::asked : scene::By::scene;
+    if (const auto found = part.find("criterion"); found != part.end())
+      read.criterion = scene::Criterion{found->at("quantity"), to_number(found->at("number")),
+                                        to_number(found->at("threshold")), to_number(found->at("bound")),
+                                        found->at("answer")};
   }
   for (const auto& [module, version] : json.at("numerics").items()) header.numerics.push_back({module, version});
   return header;

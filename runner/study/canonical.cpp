@@ -15,6 +15,7 @@
 #include "runner/study/resolved.h"
 #include "runner/study/sha256.h"
 #include "runner/study/study.h"
+#include "solver/scene/analysis.h"
 
 namespace seapile::study {
 namespace {
@@ -97,12 +98,26 @@ Members members_of(const Spec& spec) {
   return members;
 }
 
-/// Water alone: the one part that such a scene consists of; empty where there are grains.
+/// What is forced of the model is written, and nothing else; to identity belongs only what the scene has a choice about.
+template <Purpose kPurpose>
+void put_model(Members& members, const scene::SceneSpec& scene) {
+  Members model = members_of<Purpose::identity>(scene.model);
+  if constexpr (kPurpose == Purpose::identity)
+    std::erase_if(model, [&](const auto& entry) { return !scene::has_choice(scene, entry.first); });
+  members.erase("model");
+  if (!model.empty()) members["model"] = object_text(model);
+}
+
+/// Water alone: the one part that such a scene consists of, and what is forced of its model.
 template <Purpose kPurpose>
 Members water_members(const scene::SceneSpec& scene) {
-  if (scene.jet) return {{"jet", object_text(members_of<kPurpose>(*scene.jet))}};
-  if (scene.basin) return {{"basin", object_text(members_of<kPurpose>(*scene.basin))}};
-  return {};
+  Members members;
+  if (scene.jet)
+    members["jet"] = object_text(members_of<kPurpose>(*scene.jet));
+  else
+    members["basin"] = object_text(members_of<kPurpose>(*scene.basin));
+  put_model<kPurpose>(members, scene);
+  return members;
 }
 
 /// Reads what to_json() wrote.
@@ -155,6 +170,7 @@ std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed
   if (!scene.pile) return canonical_text(scene.bed);
   Members members = members_of<Purpose::identity>(scene);
   members["bed"] = string_text(bed_id);
+  put_model<Purpose::identity>(members, scene);
   return object_text(members);
 }
 
@@ -170,6 +186,7 @@ std::string to_json(const scene::SceneSpec& scene) {
   members["bed"] = object_text(bed);
   members.erase("jet");
   members.erase("basin");
+  put_model<Purpose::handover>(members, scene);
   return object_text(members);
 }
 

@@ -12,6 +12,7 @@
 #include "runner/study/grain_file.h"
 #include "runner/study/idle.h"
 #include "runner/study/scene_tree.h"
+#include "solver/scene/analysis.h"
 #include "solver/scene/validate.h"
 
 namespace seapile::study {
@@ -110,6 +111,7 @@ class Expander {
                               "exclude such cases, or write it into the values of the other axis", ""});
     };
     const auto why_not_used = [&](const std::string& path) -> std::string {
+      if (path.starts_with("model.")) return "the scene has no such part";
       if (is_water(draft.scene)) return fmt::format("the scene is a {}", water_of(draft.scene));
       if (path.starts_with("bed.preparation.contact") || (path.starts_with("contact") && draft.scene.pile))
         return "the contact solver has no such member";
@@ -169,6 +171,8 @@ class Expander {
   /// Where some values could not be read, their defaults stand in for them. Then only what the study itself says is
   /// blamed: a problem of defaults alone would be a consequence of one that is told already.
   void check_relations(const Draft& draft, std::optional<double> bed_height) {
+    for (const std::string& member : scene_schema().child("model")->child_names())
+      if (scene::has_choice(draft.scene, member)) tally_.choices.insert(member);
     std::set<std::string> unread;
     for (const auto& problem : draft.problems) unread.insert(problem.pointer);
     for (auto problem : scene::validate(draft.scene, bed_height)) {

@@ -19,9 +19,20 @@ void report_unused_beside_water(const Grammar& grammar, const Tally& tally, Prob
       tally.kinds.size() == 1 ? fmt::format("the scene is a {}", first) : "every scene is water alone";
   for (const std::string& part : scene_schema().child_names()) {
     const Value* written = grammar.base.find(part);
-    if (tally.kinds.contains(part) || !written || written->kind == Value::Kind::null) continue;
+    if (tally.kinds.contains(part) || part == "model" || !written || written->kind == Value::Kind::null) continue;
     collector.add({pointer(written->place), fmt::format("is not used: {}", all),
                    fmt::format("nothing here, or {} null", first), ""});
+  }
+}
+
+/// Of `model`, what is about parts that no case has.
+void report_unused_choices(const Grammar& grammar, const Tally& tally, ProblemCollector& collector) {
+  const Value* model = grammar.base.find("model");
+  if (!model) return;
+  for (std::size_t i = 0; i < model->keys.size(); ++i) {
+    if (tally.choices.contains(model->keys[i])) continue;
+    collector.add({pointer(model->items[i].place), "is not used: no case of this study has such a part",
+                   "choices about parts that a case has", ""});
   }
 }
 
@@ -61,6 +72,7 @@ void report_idle(const Grammar& grammar, const Tally& tally, std::size_t total, 
     return;
   }
   report_unused_beside_water(grammar, tally, collector);
+  report_unused_choices(grammar, tally, collector);
   for (const Assignment& assignment : grammar.set) {
     if (tally.used_settings.contains(&assignment)) continue;
     collector.add(

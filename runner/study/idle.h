@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Tally {
   std::map<std::string_view, std::size_t> kinds;  ///< of those cases, by water_of()
   std::vector<std::size_t> excluded, met;         ///< cases that each exclude and each when matched
   std::set<const Assignment*> used_settings;
+  std::set<std::string> choices;  ///< members of `model` that a case has a choice about
 };
 
 /// What never takes effect was meant otherwise. The command line may make a study's conditions idle, and a study with

@@ -5,6 +5,7 @@
 
 #include "runner/study/field_reader.h"
 #include "runner/study/schema.h"
+#include "solver/scene/analysis.h"
 
 namespace seapile::study {
 namespace {
@@ -76,9 +77,13 @@ ResolvedScene resolve_all(const scene::SceneSpec& scene) {
 
 ResolvedScene resolve_used(const scene::SceneSpec& scene) {
   ResolvedScene resolved = resolve_all(scene);
+  const auto drop_without_choice = [&](const base::Field& field, const auto&) {
+    if (!scene::has_choice(scene, field.key)) erase_part(resolved, "model." + std::string(field.key));
+  };
+  fields(drop_without_choice, scene.model);
   if (const std::string_view water = water_of(scene); !water.empty()) {
     for (const std::string& part : scene_schema().child_names()) {
-      if (part != water) erase_part(resolved, part);
+      if (part != water && part != "model") erase_part(resolved, part);
     }
     return resolved;
   }

@@ -43,7 +43,7 @@ bool heeds(const scene::SceneSpec& scene, std::string_view member_of_record);
 ResolvedScene resolve_all(const scene::SceneSpec& scene);
 
 /// Every value that the scene uses: water alone nothing but itself, without a pile no `contact`, with a grain file
-/// nothing that the file decides, and of a contact solver what its method has.
+/// nothing that the file decides, of a contact solver what its method has, and of `model` what there is a choice about.
 ResolvedScene resolve_used(const scene::SceneSpec& scene);
 
 /// The paths that are written in `value`, which stands at `path`: its leaves and empty objects.

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "solver/base/fields.h"
+#include "solver/fluid/element.h"
 #include "solver/fluid/free_surface.h"
 #include "solver/pile/pile_spec.h"
 
@@ -250,6 +251,7 @@ struct BasinSpec {
   std::optional<BasinPileSpec> pile = {};              ///< absent: water alone
   BasinMeshSpec mesh;
   BasinTimeSpec time;
+  fluid::Convection convection = fluid::Convection::included;  ///< not written in a study: decided (scene/analysis.h)
   friend bool operator==(const BasinSpec&, const BasinSpec&) = default;
 };
 void fields(auto& visit, SameAs<BasinSpec> auto& basin) {

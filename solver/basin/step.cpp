@@ -101,6 +101,11 @@ class Way {
       cause_ = is_finite(basin_.top.height) ? base::Cause::mesh : base::Cause::not_finite;
       return false;
     }
+    // Under a fixed top, beside a pile that stands, every vertex stays.
+    if (!basin_.spec.surface && tip_ == basin_.past_tip.front()) {
+      fluid::set_rates(basin_.flow, basin_.past, basin_.solver.order);
+      return true;
+    }
     place(basin_, tip_);
     const mesh::TriangleMesh& mesh = basin_.flow.mesh;
     const auto& from = basin_.past.level[0].position;

@@ -24,7 +24,7 @@
 // inside, a flow between grains through an open boundary had an error of first order in p.
 // Order: 2 in velocity, at least 1.5 in pressure (L2). tau belongs to the state before the iteration: it is not
 // differentiated. Axisymmetric: x is the axis, y the radius; every integral has the weight y, strain has v_y / y, and a
-// factor 2 pi is left out.
+// factor 2 pi is left out. Without convection a = v - w is a = -w everywhere, in SUPG, tau and tau_L too.
 #pragma once
 
 #include <array>
@@ -37,11 +37,17 @@ namespace seapile::fluid {
 
 enum class Geometry { planar, axisymmetric };
 
+/// Whether v.grad v is in the momentum equation. Omitted: the unsteady Stokes equations, linear in u and p, for flows
+/// whose Reynolds number is small. What the mesh's own motion adds, -w.grad v, stays: without it d/dt would not be that
+/// of a place.
+enum class Convection { included, omitted };
+
 /// The fluid. SI, or any consistent units.
 struct Properties {
   double density = 1000;    ///< rho [kg/m3]; 0: creeping flow
   double viscosity = 1e-3;  ///< mu [Pa s]
   Geometry geometry = Geometry::planar;
+  Convection convection = Convection::included;
 };
 
 /// What is known at a triangle's vertices when its velocities and pressures are asked for. Real is double, or a vector
@@ -123,12 +129,19 @@ inline constexpr std::array kQuadrature = [] {
 /// Residuals of a triangle's nine equations (momentum in x and y, mass; by vertex) [N/m, N/m, m2/s; times m when
 /// axisymmetric]. `x`, `y`: places of the vertices [m]; `u`: the unknowns. Scalar is Real, or a number with
 /// derivatives.
-template <Geometry kGeometry, class Real, class Scalar>
+template <Geometry kGeometry, Convection kConvection, class Real, class Scalar>
 std::array<Scalar, kUnknowns> element_residual_in(const Properties& fluid, const ElementInput<Real>& in,
                                                   const std::array<Scalar, 3>& x, const std::array<Scalar, 3>& y,
                                                   const std::array<Scalar, kUnknowns>& u) {
   const double rho = fluid.density, mu = fluid.viscosity;
-  constexpr bool axisymmetric = kGeometry == Geometry::axisymmetric;
+  constexpr bool axisymmetric = kGeometry == Geometry::axisymmetric, convects = kConvection == Convection::included;
+  // a = v - w, or -w.
+  const auto relative = [](const auto& v, const Real& w) {
+    if constexpr (convects)
+      return std::remove_cvref_t<decltype(v)>(v - w);
+    else
+      return Real(Real(0.0) - w);
+  };
 
   // The gradients of the three linear functions, the same all over the triangle.
   const Scalar doubled = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
@@ -160,10 +173,12 @@ std::array<Scalar, kUnknowns> element_residual_in(const Properties& fluid, const
                dphi_dx = slope(bx, at_vertex(in.porosity)), dphi_dy = slope(by, at_vertex(in.porosity));
 
   const Real third = Real(1.0 / 3);
-  const Real ax_mean = third * (plain(vx[0]) + plain(vx[1]) + plain(vx[2]) - in.mesh_velocity[0][0] -
-                                in.mesh_velocity[1][0] - in.mesh_velocity[2][0]);
-  const Real ay_mean = third * (plain(vy[0]) + plain(vy[1]) + plain(vy[2]) - in.mesh_velocity[0][1] -
-                                in.mesh_velocity[1][1] - in.mesh_velocity[2][1]);
+  const auto mean = [&](const std::array<Scalar, 3>& v, int c) {
+    Real carried = Real(0.0);
+    if constexpr (convects) carried = plain(v[0]) + plain(v[1]) + plain(v[2]);
+    return Real(third * (carried - in.mesh_velocity[0][c] - in.mesh_velocity[1][c] - in.mesh_velocity[2][c]));
+  };
+  const Real ax_mean = mean(vx, 0), ay_mean = mean(vy, 1);
   const Stabilisation<Real> stable = stabilisation<Real>(
       fluid, 0.5 * plain(doubled), third * (in.porosity[0] + in.porosity[1] + in.porosity[2]), in.unsteadiness,
       root(ax_mean * ax_mean + ay_mean * ay_mean), third * (in.drag[0] + in.drag[1] + in.drag[2]));
@@ -182,7 +197,7 @@ std::array<Scalar, kUnknowns> element_residual_in(const Properties& fluid, const
     const Real mesh_x = here(component(in.mesh_velocity, 0)), mesh_y = here(component(in.mesh_velocity, 1));
     const Scalar ux = here(unknown(0)), uy = here(unknown(1)), p = here(unknown(2)), wx = here(at_vertex(vx)),
                  wy = here(at_vertex(vy));
-    const Scalar ax = wx - mesh_x, ay = wy - mesh_y;
+    const auto ax = relative(wx, mesh_x), ay = relative(wy, mesh_y);
     Scalar volume = (0.5 * point.weight) * doubled;
 
     // Stress mu phi (grad v + grad v^T), and its divergence as far as linear functions have one.
@@ -219,7 +234,7 @@ std::array<Scalar, kUnknowns> element_residual_in(const Properties& fluid, const
     // phi grad p.w is integrated by parts, as the stress is: -p div(phi w).
     const Scalar body_x = past_x - p * dphi_dx, body_y = past_y - p * dphi_dy;
     const Scalar dilation = stable.lsic * continuity - phi * p, sxx = txx + dilation, syy = tyy + dilation;
-    const Scalar along_x = inertia * ax, along_y = inertia * ay;
+    const std::remove_cvref_t<decltype(ax)> along_x = inertia * ax, along_y = inertia * ay;
     for (int i = 0; i < 3; ++i) {
       const Scalar along = along_x * bx[i] + along_y * by[i];
       residual[3 * i] += volume * (N[i] * body_x + sxx * bx[i] + txy * by[i] + along * Rx);
@@ -241,14 +256,18 @@ std::array<Scalar, kUnknowns> element_residual_in(const Properties& fluid, const
   return residual;
 }
 
-/// Of the fluid's own geometry.
+/// Of the fluid's own geometry, with convection or without.
 template <class Real, class Scalar>
 std::array<Scalar, kUnknowns> element_residual(const Properties& fluid, const ElementInput<Real>& in,
                                                const std::array<Scalar, 3>& x, const std::array<Scalar, 3>& y,
                                                const std::array<Scalar, kUnknowns>& u) {
-  return fluid.geometry == Geometry::planar
-             ? element_residual_in<Geometry::planar, Real, Scalar>(fluid, in, x, y, u)
-             : element_residual_in<Geometry::axisymmetric, Real, Scalar>(fluid, in, x, y, u);
+  const auto in_geometry = [&]<Geometry kGeometry>() {
+    return fluid.convection == Convection::included
+               ? element_residual_in<kGeometry, Convection::included, Real, Scalar>(fluid, in, x, y, u)
+               : element_residual_in<kGeometry, Convection::omitted, Real, Scalar>(fluid, in, x, y, u);
+  };
+  return fluid.geometry == Geometry::planar ? in_geometry.template operator()<Geometry::planar>()
+                                            : in_geometry.template operator()<Geometry::axisymmetric>();
 }
 
 }  // namespace seapile::fluid

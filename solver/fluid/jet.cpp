@@ -41,7 +41,7 @@ double flux_through(const Flow& flow, std::int32_t side) {
 }
 
 Jet flat_jet(const JetSpec& spec) {
-  Jet jet{at_rest(mesh_of(spec), {spec.reynolds / 2, 1, spec.geometry}), {}};
+  Jet jet{at_rest(mesh_of(spec), {spec.reynolds / 2, 1, spec.geometry, spec.convection}), {}};
   Flow& flow = jet.flow;
   // What is written later wins: the wall, at the corner that it shares with the inflow.
   for (const JetSide side : {kAxis, kOutflow, kInflow, kDieWall})

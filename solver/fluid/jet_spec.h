@@ -69,6 +69,7 @@ struct JetSpec {
   double growth = 0.15;             ///< of the edges with the distance from the lip [-]
   double largest_size = 0.2;        ///< edges far from the lip [H]
   JetMethod method = SteadyMethod{};
+  Convection convection = Convection::included;  ///< not written in a study: decided (scene/analysis.h)
   friend bool operator==(const JetSpec&, const JetSpec&) = default;
 };
 void fields(auto& visit, SameAs<JetSpec> auto& jet) {

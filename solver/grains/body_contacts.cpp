@@ -62,7 +62,7 @@ void detect_body_contacts(RigidBody& body, const Grains& grains, ContactSystem<R
     Before<Real>& change = system.before[contact.grain];
     change.vx -= static_cast<Real>(m * (contact.pn * contact.nx - contact.pt * contact.ny));
     change.vy -= static_cast<Real>(m * (contact.pn * contact.ny + contact.pt * contact.nx));
-    change.u -= static_cast<Real>(2 * m * contact.pt);
+    change.u -= static_cast<Real>(system.twist * m * contact.pt);
   }
 }
 
@@ -75,7 +75,7 @@ BodySweep sweep_body_contacts(RigidBody& body, ContactSystem<Real>& system, cons
     Motion<Real>& grain = system.motion(c.grain);
     const Drift<Real>& d = system.drift(c.grain);
     const double m = static_cast<double>(grain.inverse_mass);
-    const double normal_mass = 1 / (m + body.inverse_mass), tangential_mass = 1 / (3 * m + body.inverse_mass);
+    const double normal_mass = 1 / (m + body.inverse_mass), tangential_mass = 1 / ((1 + system.twist) * m + body.inverse_mass);
     const double gap = c.gap + c.nx * (path.x - static_cast<double>(d.dx)) + c.ny * (path.y - static_cast<double>(d.dy));
     const double wx = body.velocity.x - static_cast<double>(grain.vx), wy = body.velocity.y - static_cast<double>(grain.vy);
     const double vn = c.nx * wx + c.ny * wy;
@@ -97,7 +97,7 @@ BodySweep sweep_body_contacts(RigidBody& body, ContactSystem<Real>& system, cons
     const double px = dpn * c.nx - dpt * c.ny, py = dpn * c.ny + dpt * c.nx;
     grain.vx -= static_cast<Real>(m * px);
     grain.vy -= static_cast<Real>(m * py);
-    grain.u -= static_cast<Real>(2 * m * dpt);
+    grain.u -= static_cast<Real>(system.twist * m * dpt);
     body.velocity = body.velocity + body.inverse_mass * base::Vec2{px, py};
 
     const double dvn = dpn / normal_mass, dvt = dpt / tangential_mass;

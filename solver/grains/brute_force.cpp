@@ -100,7 +100,7 @@ class Step {
       const double other = j >= 0 ? system_.body[j].inverse_mass : j == kBody ? body_->inverse_mass : 0;
       // The body does not turn, nor do walls: of them only the mass counts along the tangent.
       c.inverse_mass = m + other;
-      c.tangential_inverse_mass = 3 * m + (j >= 0 ? 3 * other : other);
+      c.tangential_inverse_mass = (1 + law_.twist) * m + (j >= 0 ? (1 + law_.twist) * other : other);
       c.approach = across(c, system_.body, driven).normal;
       if (const auto k = kept.find({i, j}); k != kept.end()) c.pn = k->second->pn, c.pt = k->second->pt;
       contacts_.push_back(c);
@@ -148,7 +148,7 @@ class Step {
     const auto push = [&](Motion<double>& m, double sign) {
       m.vx += sign * m.inverse_mass * px;
       m.vy += sign * m.inverse_mass * py;
-      m.u -= 2 * m.inverse_mass * pt;
+      m.u -= law_.twist * m.inverse_mass * pt;
     };
     push(system_.body[c.i], -1);
     if (c.j >= 0) push(system_.body[c.j], 1);

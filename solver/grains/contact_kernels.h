@@ -21,6 +21,7 @@ struct Softness {
   Real mass_scale;     ///< [-]
   Real impulse_scale;  ///< [-]
   Real push_speed;     ///< largest correction speed [m/s]
+  Real twist = 2;      ///< ContactLaw::twist [-]
 };
 
 /// Sums of one call.
@@ -46,6 +47,7 @@ struct Nearness {
   double time;     ///< of the step [s]
   double closing;  ///< so far (ContactSystem::closing) [m]
   double reach;    ///< largest closing of any gap in this step [m]
+  double twist = 2;  ///< ContactLaw::twist [-]
 };
 
 template <class Real>
@@ -81,13 +83,14 @@ struct ContactKernels {
   /// One Gauss-Seidel sweep over blocks [first, last), which starts from p + momentum (p - p_old) and leaves p in p_old.
   /// `sums` are added to.
   void (*solve)(ContactBlock<Real>* block, Iterate<Real>* iterate, const std::uint8_t* active, std::int32_t first,
-                std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real momentum, SolveSums* sums);
+                std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real twist, Real momentum,
+                SolveSums* sums);
 
   /// Residual of blocks [first, last) at the present impulses and velocities, nothing moved (natural map), and the
   /// impulses' work on the mean of the velocities now and those in `before`. `sums` are added to.
   void (*assess)(const ContactBlock<Real>* block, const Iterate<Real>* iterate, const std::uint8_t* active,
                  std::int32_t first, std::int32_t last, const BodyGroup<Real>* bodies, const Before<Real>* before,
-                 Real friction, SolveSums* sums);
+                 Real friction, Real twist, SolveSums* sums);
 };
 
 using base::available;

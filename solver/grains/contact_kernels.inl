@@ -52,7 +52,7 @@ void refresh(ContactBlock<Real>* blocks, std::uint8_t* active, double* wake, std
   const double* discs = numbers(disc);
   const Real* motions = numbers(bodies);
   Real* warms = numbers(warm);
-  const V zero = {}, one = zero + Real(1);
+  const V zero = {}, one = zero + Real(1), twist = zero + static_cast<Real>(near.twist);
   const V margin = zero + static_cast<Real>(near.margin), time = zero + static_cast<Real>(2 * near.time);
 
   for (std::int32_t b = first; b < last; ++b) {
@@ -124,9 +124,9 @@ void refresh(ContactBlock<Real>* blocks, std::uint8_t* active, double* wake, std
       const V nx = load<V>(block.nx + k), ny = load<V>(block.ny + k);
       const V pn = load<V>(block.pn + k), pt = load<V>(block.pt + k);
       const V px = pn * nx - pt * ny, py = pn * ny + pt * nx;
-      const V two_pt = pt + pt;
-      scatter<Real>(warms, i + k, V(ax - mi * px), V(ay - mi * py), V(au - mi * two_pt), am);
-      scatter<Real>(warms, j + k, V(bx + mj * px), V(by + mj * py), V(bu - mj * two_pt), bm);
+      const V turn = twist * pt;
+      scatter<Real>(warms, i + k, V(ax - mi * px), V(ay - mi * py), V(au - mi * turn), am);
+      scatter<Real>(warms, j + k, V(bx + mj * px), V(by + mj * py), V(bu - mj * turn), bm);
     }
   }
 }
@@ -139,8 +139,8 @@ void sweep(ContactBlock<Real>* blocks, const std::uint8_t* active, std::int32_t 
   constexpr int P = kLanes / W;
   Real* motions = numbers(bodies);
   const Real* drifts = motions + 16;
-  const V zero = {}, one = zero + Real(1), half = zero + Real(0.5), third = zero + Real(1) / Real(3);
-  const V mu = zero + friction;
+  const V zero = {}, one = zero + Real(1), half = zero + Real(0.5);
+  const V mu = zero + friction, twist = zero + soft.twist, arms = one + twist, share = one / arms;
   const V inverse_h = zero + soft.inverse_h, bias_rate = zero + soft.bias_rate, push = zero - soft.push_speed;
   const V mass_scale = zero + soft.mass_scale, impulse_scale = zero + soft.impulse_scale;
 
@@ -186,22 +186,22 @@ void sweep(ContactBlock<Real>* blocks, const std::uint8_t* active, std::int32_t 
       const V new_pn = larger(wanted, zero);
       const V dpn = new_pn - pn;
 
-      // Friction: no slip, or the edge of the Coulomb cone. The tangential mass is a third of the normal one.
+      // Friction: no slip, or the edge of the Coulomb cone. The tangential mass is a third of the normal one, or all of it without spin.
       const V cone = mu * new_pn;
-      const V stick = pt - mass * third * vt;
+      const V stick = pt - mass * share * vt;
       const V new_pt = smaller(larger(stick, V(zero - cone)), cone);
       const V dpt = new_pt - pt;
 
       store(block.pn + k, new_pn);
       store(block.pt + k, new_pt);
 
-      const V px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, two_pt = dpt + dpt;
-      vxi[p] = vxi[p] - mi[p] * px, vyi[p] = vyi[p] - mi[p] * py, ui[p] = ui[p] - mi[p] * two_pt;
-      vxj[p] = vxj[p] + mj[p] * px, vyj[p] = vyj[p] + mj[p] * py, uj[p] = uj[p] - mj[p] * two_pt;
+      const V px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, turn = twist * dpt;
+      vxi[p] = vxi[p] - mi[p] * px, vyi[p] = vyi[p] - mi[p] * py, ui[p] = ui[p] - mi[p] * turn;
+      vxj[p] = vxj[p] + mj[p] * px, vyj[p] = vyj[p] + mj[p] * py, uj[p] = uj[p] - mj[p] * turn;
 
       // Work of the change on the mean of the velocities before and after it; the normal velocity it changed.
       const V inverse_mass = mi[p] + mj[p];
-      const V dvn = inverse_mass * dpn, dvt = (inverse_mass + inverse_mass + inverse_mass) * dpt;
+      const V dvn = inverse_mass * dpn, dvt = (arms * inverse_mass) * dpt;
       work[p] = work[p] + dpn * (vn + half * dvn) + dpt * (vt + half * dvt);
       residual[p] = residual[p] + dvn * dvn;
     }
@@ -355,12 +355,12 @@ void extrapolate(BodyGroup<Real>* bodies, std::int32_t first, std::int32_t last,
 
 template <class Real>
 void solve(ContactBlock<Real>* blocks, Iterate<Real>* iterates, const std::uint8_t* active, std::int32_t first,
-           std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real momentum, SolveSums* sums) {
+           std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real spin, Real momentum, SolveSums* sums) {
   using V = typename Lanes<Real>::V;
   constexpr int W = Lanes<Real>::kWidth;
   constexpr int P = kLanes / W;
   Real* motions = numbers(bodies);
-  const V zero = {}, one = zero + Real(1), third = zero + Real(1) / Real(3);
+  const V zero = {}, one = zero + Real(1), twist = zero + spin, arms = one + twist, share = one / arms;
   const V mu = zero + friction, beta = zero + momentum;
 
   V residual[P], touching[P];
@@ -394,7 +394,7 @@ void solve(ContactBlock<Real>* blocks, Iterate<Real>* iterates, const std::uint8
       // Signorini, then Coulomb: each exact for its contact, because the local problem is diagonal.
       const V new_pn = larger(V(pn - mass * (vn + load<V>(iterate.bias + k))), zero);
       const V cone = mu * new_pn;
-      const V new_pt = smaller(larger(V(pt - mass * third * vt), V(zero - cone)), cone);
+      const V new_pt = smaller(larger(V(pt - mass * share * vt), V(zero - cone)), cone);
       const V dpn = new_pn - pn, dpt = new_pt - pt;
 
       store(iterate.old_pn + k, kept_pn);
@@ -402,12 +402,12 @@ void solve(ContactBlock<Real>* blocks, Iterate<Real>* iterates, const std::uint8
       store(block.pn + k, new_pn);
       store(block.pt + k, new_pt);
 
-      const V px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, two_pt = dpt + dpt;
-      vxi[p] = vxi[p] - mi[p] * px, vyi[p] = vyi[p] - mi[p] * py, ui[p] = ui[p] - mi[p] * two_pt;
-      vxj[p] = vxj[p] + mj[p] * px, vyj[p] = vyj[p] + mj[p] * py, uj[p] = uj[p] - mj[p] * two_pt;
+      const V px = dpn * nx - dpt * ny, py = dpn * ny + dpt * nx, turn = twist * dpt;
+      vxi[p] = vxi[p] - mi[p] * px, vyi[p] = vyi[p] - mi[p] * py, ui[p] = ui[p] - mi[p] * turn;
+      vxj[p] = vxj[p] + mj[p] * px, vyj[p] = vyj[p] + mj[p] * py, uj[p] = uj[p] - mj[p] * turn;
 
       const V inverse_mass = mi[p] + mj[p];
-      const V dvn = inverse_mass * dpn, dvt = (inverse_mass + inverse_mass + inverse_mass) * dpt;
+      const V dvn = inverse_mass * dpn, dvt = (arms * inverse_mass) * dpt;
       residual[p] = residual[p] + (dvn * dvn + dvt * dvt);
       touching[p] = touching[p] + (new_pn > zero ? one : zero);
     }
@@ -430,13 +430,13 @@ void solve(ContactBlock<Real>* blocks, Iterate<Real>* iterates, const std::uint8
 template <class Real>
 void assess(const ContactBlock<Real>* blocks, const Iterate<Real>* iterates, const std::uint8_t* active,
             std::int32_t first, std::int32_t last, const BodyGroup<Real>* bodies, const Before<Real>* before,
-            Real friction, SolveSums* sums) {
+            Real friction, Real twist, SolveSums* sums) {
   using V = typename Lanes<Real>::V;
   constexpr int W = Lanes<Real>::kWidth;
   constexpr int P = kLanes / W;
   const Real* motions = numbers(bodies);
   const Real* olds = numbers(before);
-  const V zero = {}, one = zero + Real(1), half = zero + Real(0.5), third = zero + Real(1) / Real(3);
+  const V zero = {}, one = zero + Real(1), half = zero + Real(0.5), arms = one + twist, share = one / arms;
   const V mu = zero + friction;
 
   V residual[P], touching[P], work[P];
@@ -463,10 +463,10 @@ void assess(const ContactBlock<Real>* blocks, const Iterate<Real>* iterates, con
 
       const V new_pn = larger(V(pn - mass * (vn + load<V>(iterates[b].bias + k))), zero);
       const V cone = mu * new_pn;
-      const V new_pt = smaller(larger(V(pt - mass * third * vt), V(zero - cone)), cone);
+      const V new_pt = smaller(larger(V(pt - mass * share * vt), V(zero - cone)), cone);
       const V inverse_mass = mi + mj;
       const V dvn = inverse_mass * (new_pn - pn);
-      const V dvt = (inverse_mass + inverse_mass + inverse_mass) * (new_pt - pt);
+      const V dvt = (arms * inverse_mass) * (new_pt - pt);
       residual[p] = residual[p] + (dvn * dvn + dvt * dvt);
       touching[p] = touching[p] + (pn > zero ? one : zero);
 

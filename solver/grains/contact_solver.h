@@ -46,6 +46,7 @@ struct ContactLaw {
   double friction_grain = 0.5;   ///< [-]
   double friction_wall = 0;      ///< [-]
   double restitution = 0;        ///< e [-]
+  double twist = 2;              ///< m r^2/I: 2 of a disc; 0: I is infinite, and grains do not spin [-]
   double step = 5e-4;            ///< dt [s]
   std::optional<NonSmooth> nonsmooth;  ///< absent: soft impulses, to which the rest belongs
   int substeps = 10;
@@ -107,6 +108,7 @@ struct ContactSystem {
   std::vector<base::Vec2> listed;            ///< places of the grains when the list was made; empty: never (count)
 
   // Derived.
+  double twist = 2;                          ///< of the law at hand [-]
   Regions regions;                           ///< of the grains
   base::AlignedVector<Before<Real>> before;  ///< (grains, filled up to a multiple of four, and wall points)
   base::AlignedVector<Iterate<Real>> iterate;  ///< of the non-smooth method, (blocks); empty for soft impulses

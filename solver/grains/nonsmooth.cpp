@@ -84,7 +84,7 @@ void solve_body(RigidBody& body, ContactSystem<Real>& system, double momentum, S
   for (BodyContact& c : body.contact) {
     Motion<Real>& grain = system.motion(c.grain);
     const double m = static_cast<double>(grain.inverse_mass);
-    const double inverse = m + body.inverse_mass, tangential_inverse = 3 * m + body.inverse_mass;
+    const double inverse = m + body.inverse_mass, tangential_inverse = (1 + system.twist) * m + body.inverse_mass;
     const double pn = c.pn + momentum * (c.pn - c.old_pn), pt = c.pt + momentum * (c.pt - c.old_pt);
     const Impulses p =
         solved(c, body.friction, pn, pt, across(c, body.velocity, grain), 1 / inverse, 1 / tangential_inverse);
@@ -95,7 +95,7 @@ void solve_body(RigidBody& body, ContactSystem<Real>& system, double momentum, S
     const double px = dpn * c.nx - dpt * c.ny, py = dpn * c.ny + dpt * c.nx;
     grain.vx -= static_cast<Real>(m * px);
     grain.vy -= static_cast<Real>(m * py);
-    grain.u -= static_cast<Real>(2 * m * dpt);
+    grain.u -= static_cast<Real>(system.twist * m * dpt);
     body.velocity = body.velocity + body.inverse_mass * base::Vec2{px, py};
     sums.residual += (inverse * dpn) * (inverse * dpn) + (tangential_inverse * dpt) * (tangential_inverse * dpt);
     sums.touching += c.pn > 0;
@@ -109,7 +109,7 @@ base::Vec2 assess_body(RigidBody& body, base::Vec2 body_before, const ContactSys
   base::Vec2 felt;
   for (BodyContact& c : body.contact) {
     const double m = static_cast<double>(system.motion(c.grain).inverse_mass);
-    const double inverse = m + body.inverse_mass, tangential_inverse = 3 * m + body.inverse_mass;
+    const double inverse = m + body.inverse_mass, tangential_inverse = (1 + system.twist) * m + body.inverse_mass;
     const Across v = across(c, body.velocity, system.motion(c.grain));
     const Across before = across(c, body_before, system.before[c.grain]);
     const Impulses p = solved(c, body.friction, c.pn, c.pt, v, 1 / inverse, 1 / tangential_inverse);
@@ -149,6 +149,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   const bool restitution = law.restitution > 0;
   ContactReport report;
   Laps serial(profile);
+  system.twist = law.twist;
 
   const Closing closing = expected_closing(system, grains, law, body, body_path, team.crew.get());
   report.rebuilt = keep_lists(system, grains, box, body, closing, dt, team.crew.get());
@@ -162,7 +163,7 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   system.body_sums.assign(regions.tiles(), {});  // begin() fills them; the warm start is no work of its own here
   system.path.assign(regions.tiles(), 0);
   const Push<Real>* const grain_push = hold_push(system, grains);
-  const Nearness near{closing.margin, dt, system.closing, closing.reach};
+  const Nearness near{closing.margin, dt, system.closing, closing.reach, law.twist};
 
   const base::Vec2 body_before = !body_path.empty() ? base::Vec2{0, -body_path.back() / dt}
                                  : body             ? body->velocity
@@ -179,11 +180,11 @@ ContactReport integrate_rigidly(ContactSystem<Real>& system, Grains& grains, con
   };
   const auto solve = [&](std::int32_t first, std::int32_t last, double friction, SolveSums& sum) {
     kernel.solve(blocks.block.data(), system.iterate.data(), blocks.active.data(), first, last, system.group.data(),
-                 static_cast<Real>(friction), static_cast<Real>(momentum), &sum);
+                 static_cast<Real>(friction), static_cast<Real>(law.twist), static_cast<Real>(momentum), &sum);
   };
   const auto assess = [&](std::int32_t first, std::int32_t last, double friction, SolveSums& sum) {
     kernel.assess(blocks.block.data(), system.iterate.data(), blocks.active.data(), first, last, system.group.data(),
-                  system.before.data(), static_cast<Real>(friction), &sum);
+                  system.before.data(), static_cast<Real>(friction), static_cast<Real>(law.twist), &sum);
   };
 
   base::together(team.crew.get(), [&](int me, int threads) {

@@ -21,11 +21,11 @@ Across across(const Motion<Real>& a, const Motion<Real>& b, double nx, double ny
 }
 
 template <class Real>
-void push(Motion<Real>& a, double px, double py, double pt) {
+void push(Motion<Real>& a, double px, double py, double pt, double twist) {
   const double m = static_cast<double>(a.inverse_mass);
   a.vx += static_cast<Real>(m * px);
   a.vy += static_cast<Real>(m * py);
-  a.u -= static_cast<Real>(2 * m * pt);
+  a.u -= static_cast<Real>(twist * m * pt);
 }
 
 /// The rebound's impulses; zero when the contact did not close in this step.
@@ -88,7 +88,7 @@ void remember_approach(ContactSystem<Real>& system, const RigidBody* body, base:
 template <class Real>
 void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw& law, double pull, RigidBody* body,
              ContactTotals& totals) {
-  const double threshold = 2 * pull * law.step;
+  const double threshold = 2 * pull * law.step, arms = 1 + law.twist;
   ContactBlocks<Real>& blocks = system.blocks;
   for (const Colour& colour : blocks.colour)
     for (std::int32_t b = colour.first; b < colour.last; ++b) {
@@ -107,13 +107,13 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
         const double gap = nx * (dj.x - di.x) + ny * (dj.y - di.y) - di.radius - dj.radius;
         const double mass = static_cast<double>(block.mass[lane]);
         const bool wall = b >= colour.first_wall;
-        const Bounce p = bounce(approach, now, static_cast<double>(block.pn[lane]), gap, mass, mass / 3,
+        const Bounce p = bounce(approach, now, static_cast<double>(block.pn[lane]), gap, mass, mass / arms,
                                 wall ? law.friction_wall : law.friction_grain, threshold, law);
         if (p.pn == 0) continue;
         const double px = p.pn * nx - p.pt * ny, py = p.pn * ny + p.pt * nx;
-        push(first, -px, -py, p.pt);
-        push(second, px, py, p.pt);
-        totals.dissipation -= p.pn * (now.normal + 0.5 * p.pn / mass) + p.pt * (now.tangential + 1.5 * p.pt / mass);
+        push(first, -px, -py, p.pt, law.twist);
+        push(second, px, py, p.pt, law.twist);
+        totals.dissipation -= p.pn * (now.normal + 0.5 * p.pn / mass) + p.pt * (now.tangential + 0.5 * arms * p.pt / mass);
         if (wall) totals.dissipation += late_gravity(law, -py);
         late_push(law, grains, i, wall ? -1 : j, {px, py}, totals);
         blocks.step_impulse[b].normal[lane] += p.pn;
@@ -129,13 +129,13 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
     const Motion<double> first{static_cast<double>(grain.vx), static_cast<double>(grain.vy), static_cast<double>(grain.u),
                                static_cast<double>(grain.inverse_mass)};
     const Across now = across(first, pile, c.nx, c.ny);
-    const double m = first.inverse_mass + body->inverse_mass, mt = 3 * first.inverse_mass + body->inverse_mass;
+    const double m = first.inverse_mass + body->inverse_mass, mt = arms * first.inverse_mass + body->inverse_mass;
     const Disc& disc = grains.disc[c.grain];
     const double gap = nearest_place(*body, {disc.x, disc.y}).distance - disc.radius;
     const Bounce p = bounce(system.body_approach[k], now, c.pn, gap, 1 / m, 1 / mt, body->friction, threshold, law);
     if (p.pn == 0) continue;
     const double px = p.pn * c.nx - p.pt * c.ny, py = p.pn * c.ny + p.pt * c.nx;
-    push(grain, -px, -py, p.pt);
+    push(grain, -px, -py, p.pt, law.twist);
     body->velocity = body->velocity + body->inverse_mass * base::Vec2{px, py};
     c.step_pn += p.pn;
     c.step_pt += p.pt;

@@ -16,13 +16,13 @@ Softness<double> softness(const ContactLaw& law, double smallest_radius) {
   const double a1 = 2 * law.damping + h * omega;
   const double a2 = h * omega * a1;
   const double a3 = 1 / (1 + a2);
-  return {1 / h, omega / a1, a2 * a3, a3, push_speed(law, smallest_radius)};
+  return {1 / h, omega / a1, a2 * a3, a3, push_speed(law, smallest_radius), law.twist};
 }
 
 template <class Real>
 Softness<Real> narrow(const Softness<double>& s) {
   return {static_cast<Real>(s.inverse_h), static_cast<Real>(s.bias_rate), static_cast<Real>(s.mass_scale),
-          static_cast<Real>(s.impulse_scale), static_cast<Real>(s.push_speed)};
+          static_cast<Real>(s.impulse_scale), static_cast<Real>(s.push_speed), static_cast<Real>(s.twist)};
 }
 
 /// Vertical contact impulse on a tile's grains in the last sub-step [N s/m].
@@ -55,6 +55,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   ContactReport report;
   report.sweeps = law.substeps;
   Laps serial(profile);
+  system.twist = law.twist;
 
   const Closing closing = expected_closing(system, grains, law, body, body_path, team.crew.get());
   report.rebuilt = keep_lists(system, grains, box, body, closing, law.step, team.crew.get());
@@ -66,7 +67,7 @@ ContactReport integrate_softly(ContactSystem<Real>& system, Grains& grains, cons
   system.body_sums.assign(regions.tiles(), {});
   system.path.assign(regions.tiles(), 0);
   const Push<Real>* const grain_push = hold_push(system, grains);
-  const Nearness near{closing.margin, law.step, system.closing, closing.reach};
+  const Nearness near{closing.margin, law.step, system.closing, closing.reach, law.twist};
   BodySweep body_sweep;
   base::Vec2 body_before;  // velocity of the body at the start of the sub-step
   std::atomic<std::int64_t> touching = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <variant>
@@ -47,6 +48,16 @@ std::string text(double number, const char* unit) { return text(number) + " " + 
 
 Motion motion(const pile::Driving& driving, double time) {
   return std::visit([&](const auto& drive) { return motion_of(drive, time); }, driving);
+}
+
+double duration(const pile::PileSpec& pile) {
+  double time = pile.duration.value_or(std::numeric_limits<double>::infinity());
+  if (!pile.depth) return time;
+  if (const double speed = mean_speed(pile.driving); speed > 0) time = std::min(time, *pile.depth / speed);
+  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&pile.driving); sine && sine->speed > 0) {
+    if (sine->speed / (pi * sine->frequency) >= *pile.depth) time = std::min(time, 0.5 / sine->frequency);
+  }
+  return time;
 }
 
 double mean_speed(const pile::Driving& driving) {

@@ -26,6 +26,9 @@ struct Motion {
 };
 Motion motion(const pile::Driving& driving, double time);
 
+/// Duration of a run as far as its scene tells it [s]; infinite when it never ends.
+double duration(const pile::PileSpec& pile);
+
 /// Speed averaged over a period [m/s]; a sine by itself goes nowhere.
 double mean_speed(const pile::Driving& driving);
 

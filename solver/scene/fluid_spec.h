@@ -60,6 +60,7 @@ struct FluidSpec {
   FluidMeshSpec mesh;
   FluidTimeSpec time;
   coupling::CouplingSpec coupling;
+  fluid::Convection convection = fluid::Convection::included;  ///< not written in a study: decided (scene/analysis.h)
   friend bool operator==(const FluidSpec&, const FluidSpec&) = default;
 };
 void fields(auto& visit, base::SameAs<FluidSpec> auto& fluid) {

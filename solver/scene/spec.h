@@ -12,6 +12,7 @@
 #include "solver/grains/grains_spec.h"
 #include "solver/pile/pile_spec.h"
 #include "solver/scene/fluid_spec.h"
+#include "solver/scene/model_spec.h"
 
 namespace seapile::scene {
 
@@ -63,6 +64,7 @@ struct SceneSpec {
   grains::ContactSpec contact;         ///< the solver while driving
   std::optional<fluid::JetSpec> jet;   ///< present: the scene is this jet, and there is neither bed nor pile
   std::optional<basin::BasinSpec> basin;  ///< present: the scene is this basin of water, and there is no bed
+  ModelSpec model;                        ///< which of the parts described above are built
   friend bool operator==(const SceneSpec&, const SceneSpec&) = default;
 };
 void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
@@ -72,6 +74,7 @@ void fields(auto& visit, SameAs<SceneSpec> auto& scene) {
   visit(part("contact", "the contact solver while driving"), scene.contact);
   visit(later(part("jet", "a jet from a die, instead of all the others; null: none")), scene.jet);
   visit(later(part("basin", "a basin of water without grains, instead of all the others; null: none")), scene.basin);
+  visit(later(part("model", "which parts are built: as_needed, yes or no")), scene.model);
 }
 
 /// Whether the scene is water alone: no grains, and no bed that it is built on.

@@ -44,17 +44,6 @@ double estimated_height(const BedSpec& bed) {
   return grain_area(bed.grains) / (bed.preparation.solid_fraction.value_or(kUsual) * bed.domain.width);
 }
 
-/// Duration of a run as far as its scene tells it [s]; infinite when it never ends.
-double duration(const pile::PileSpec& pile) {
-  double time = pile.duration.value_or(std::numeric_limits<double>::infinity());
-  if (!pile.depth) return time;
-  if (const double speed = mean_speed(pile.driving); speed > 0) time = std::min(time, *pile.depth / speed);
-  if (const auto* sine = std::get_if<pile::SinusoidalDriving>(&pile.driving); sine && sine->speed > 0) {
-    if (sine->speed / (pi * sine->frequency) >= *pile.depth) time = std::min(time, 0.5 / sine->frequency);
-  }
-  return time;
-}
-
 void check_grains(const BedSpec& bed, Problems& problems) {
   const auto& radius = bed.grains.radius;
   const DomainSpec& box = bed.domain;

@@ -9,6 +9,7 @@
 
 #include "solver/grains/packing.h"
 #include "solver/pile/pile.h"
+#include "solver/scene/analysis.h"
 #include "solver/simulation/settle.h"
 #include "solver/simulation/state.h"
 
@@ -38,6 +39,11 @@ grains::ContactLaw law_of(const scene::BedSpec& bed, const grains::ContactSpec& 
 double weight_in_fluid(const scene::SceneSpec& scene) {
   const double g = scene.bed.domain.gravity;
   return scene.fluid ? g * (1 - scene.fluid->density / scene.bed.grains.density) : g;
+}
+
+/// Grains that do not spin have an infinite moment of inertia.
+double twist_of(const scene::ModelSpec& model) {
+  return model.rotation == scene::Rotation::yes ? grains::ContactLaw{}.twist : 0;
 }
 
 Simulation enclosed(const scene::BedSpec& bed, const grains::ContactSpec& contact, grains::Grains grains,
@@ -73,6 +79,7 @@ const std::vector<T>& values(const std::vector<Array>& arrays, const std::string
 std::vector<Array> immersed(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution) {
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
   sim.law.gravity = weight_in_fluid(scene);
+  sim.law.twist = twist_of(scene.model);
   std::vector<Record> unused;
   settle(sim, scene.bed.preparation.longest, unused, [](double) {});
   return arrays_of(sim.grains);
@@ -98,13 +105,15 @@ Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double fr
   return sim;
 }
 
-Simulation build(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution,
+Simulation build(const scene::SceneSpec& asked, const Bed& bed, const Execution& execution,
                  const std::vector<Array>& resume_from) {
+  const scene::SceneSpec scene = scene::as_built(asked);
   const std::vector<Array> start = !scene.fluid          ? bed.grains
                                    : resume_from.empty() ? immersed(scene, bed, execution)
                                                          : origins_of(resume_from);
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(start, scene.bed.grains.density), execution);
   sim.law.gravity = weight_in_fluid(scene);
+  sim.law.twist = twist_of(scene.model);
   if (static_cast<std::int64_t>(sim.grains.count()) != scene.bed.grains.count)
     throw std::invalid_argument("the bed has " + std::to_string(sim.grains.count()) + " grains, the scene " +
                                 std::to_string(scene.bed.grains.count));

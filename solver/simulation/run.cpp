@@ -17,40 +17,7 @@ std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
   return versions;
 }
 
-std::vector<Part> parts(const scene::SceneSpec& scene) {
-  if (is_water(scene)) {
-    const std::string water = scene.jet ? "the scene is a jet of fluid" : "the scene is a basin of water";
-    const bool pile = !scene.jet && scene.basin->pile, free = scene.jet || scene.basin->surface;
-    return {{"grains", false, water},
-            {"walls", false, water},
-            {"pile", pile,
-             scene.jet ? water
-             : pile    ? "the basin has a pile"
-                       : "the basin has none: \"pile\" is null"},
-            {"restitution", false, water},
-            {"mesh", true, "the fluid lives on it"},
-            {"fluid", true, water},
-            {"free_surface", free,
-             scene.jet ? "the jet finds its own shape"
-             : free    ? "the water's top moves"
-                       : "the top is fixed: \"surface\" is null"},
-            {"coupling", false, water}};
-  }
-  const bool wet = scene.fluid.has_value(), free = wet && scene.fluid->surface;
-  const std::string dry = "the scene is dry: \"fluid\" is null";
-  return {{"grains", true, "the bed has " + std::to_string(scene.bed.grains.count) + " grains"},
-          {"walls", true, "the box holds the grains"},
-          {"pile", scene.pile.has_value(), scene.pile ? "the scene drives a pile" : "the scene is the bed alone"},
-          {"restitution", scene.bed.grains.restitution > 0,
-           scene.bed.grains.restitution > 0 ? "the grains rebound" : "the coefficient of restitution is 0"},
-          {"mesh", wet, wet ? "the fluid lives on it" : dry},
-          {"fluid", wet, wet ? "the scene is saturated" : dry},
-          {"free_surface", free,
-           !wet   ? dry
-           : free ? "the fluid's top moves"
-                  : "the top is fixed: \"surface\" is null"},
-          {"coupling", wet, wet ? "grains and fluid act on each other" : dry}};
-}
+std::vector<Part> parts(const scene::SceneSpec& scene) { return scene::decisions(scene); }
 
 RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, const Bed& bed,
               const Execution& execution, const std::vector<Array>& resume_from,

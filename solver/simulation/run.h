@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/scene/analysis.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/array.h"
 #include "solver/simulation/execution.h"
@@ -28,11 +29,7 @@ struct NumericsVersion {
 std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene);
 
 /// A part of the solver, and whether this scene was built with it.
-struct Part {
-  std::string name;  ///< "grains", "walls", "pile", "mesh", "fluid", "free_surface", "coupling"
-  bool built = false;
-  std::string reason;  ///< why it was built, or left out
-};
+using Part = scene::Decision;
 std::vector<Part> parts(const scene::SceneSpec& scene);
 
 /// A named number that a finished case is known by.

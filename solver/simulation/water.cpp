@@ -19,6 +19,7 @@ basin::BasinSpec basin_of(const scene::SceneSpec& scene, double tip) {
   basin.walls = fluid.walls;
   basin.bottom = fluid.bottom;
   basin.surface = fluid.surface;
+  basin.convection = fluid.convection;
   if (scene.pile)
     basin.pile = basin::BasinPileSpec{scene.pile->radius, scene.pile->tip, scene.pile->driving, fluid.depth - tip};
   basin.mesh = {basin::UnstructuredMesh{fluid.mesh.size, fluid.mesh.pile_size, fluid.mesh.growth}, fluid.mesh.motion,

@@ -31,7 +31,9 @@ TEST_F(BasinJob, IsSealedWithItsPartsItsSeriesAndItsFrames) {
   EXPECT_EQ(manifest.header.kind, "flow");
   EXPECT_EQ(manifest.header.record_json, R"({"interval":0.05,"times":[0.1,0.2]})");
   for (const simulation::Part& part : manifest.header.parts)
-    EXPECT_EQ(part.built, part.name == "mesh" || part.name == "fluid" || part.name == "free_surface") << part.name;
+    EXPECT_EQ(part.built, part.name == "mesh" || part.name == "mesh_motion" || part.name == "fluid" ||
+                              part.name == "convection" || part.name == "free_surface")
+        << part.name;
   const fs::path run = run_in(place.results());
   EXPECT_TRUE(store::verify(run).empty());
   const std::vector<simulation::FlowRecord> records = store::read_flow_series(run);

@@ -29,7 +29,9 @@ TEST_F(FlowJob, AJetIsSealedWithItsPartsAndItsFrame) {
   const store::Manifest manifest = result();
   EXPECT_EQ(manifest.header.kind, "flow");
   for (const simulation::Part& part : manifest.header.parts)
-    EXPECT_EQ(part.built, part.name == "mesh" || part.name == "fluid" || part.name == "free_surface") << part.name;
+    EXPECT_EQ(part.built, part.name == "mesh" || part.name == "mesh_motion" || part.name == "fluid" ||
+                              part.name == "convection" || part.name == "free_surface")
+        << part.name;
   const fs::path run = store::case_folder(place.results(), manifest.header.case_id) / manifest.run;
   EXPECT_EQ(store::flow_frame_count(run), 1u);
   EXPECT_TRUE(store::verify(run).empty());

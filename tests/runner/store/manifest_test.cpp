@@ -41,6 +41,10 @@ TEST(Manifest, GivesBackWhatWasSaid) {
   EXPECT_EQ(out.header.bed_run, "0001");
   EXPECT_EQ(out.header.parts.size(), 5U);
   EXPECT_FALSE(out.header.parts[3].built);
+  EXPECT_EQ(out.header.parts[3].by, scene::By::asked);
+  EXPECT_EQ(out.header.parts[3].criterion->number, 0.25);
+  EXPECT_EQ(out.header.parts[3].criterion->answer, "mean");
+  EXPECT_FALSE(out.header.parts[4].criterion);
   EXPECT_EQ(out.header.numerics[1].module, "pile");
   EXPECT_EQ(out.header.numerics[1].version, 2);
   EXPECT_EQ(out.result.state_hash, in.result.state_hash);

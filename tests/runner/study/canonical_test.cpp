@@ -77,6 +77,7 @@ TEST(Canonical, AnySceneComesBackFromItsJson) {
     if (is_water(scene)) {  // which is handed over alone
       scene::SceneSpec alone;
       alone.jet = scene.jet;
+      alone.model = scene.model;
       if (!scene.jet) alone.basin = scene.basin;
       scene = alone;
     }

@@ -125,10 +125,11 @@ TEST(Jacobian, IsTheDerivativeOfTheWholeResidualWhereTauIsFixed) {
 
 TEST(Jacobian, IsTheDerivativeWithTheStabilisationHeld) {
   for (const Geometry geometry : {Geometry::planar, Geometry::axisymmetric})
-    for (const double viscosity : {0.5, 1e-3}) {
-      const RandomFlow random = random_flow(uneven_mesh(5, 4, 2), {1.2, viscosity, geometry}, 2);
-      expect_equal(jacobian(random.flow, random.scheme), differenced(random), random.flow);
-    }
+    for (const double viscosity : {0.5, 1e-3})
+      for (const Convection convection : {Convection::included, Convection::omitted}) {
+        const RandomFlow random = random_flow(uneven_mesh(5, 4, 2), {1.2, viscosity, geometry, convection}, 2);
+        expect_equal(jacobian(random.flow, random.scheme), differenced(random), random.flow);
+      }
 }
 
 // The difference between the two is what the name says: with density, tau moves with the velocity.

@@ -217,12 +217,17 @@ TYPED_TEST(ContactKernel, SolveHasTheBitsOfItsScalarTwin) {
   using Real = TypeParam;
   const auto call = [](auto&& solve, Table<Real>& t) {
     for (const Real momentum : {Real(0), Real(0.7)})
-      solve(t.block.data(), t.iterate.data(), t.active.data(), 0, kBlocks, t.group.data(), Real(0.5), momentum, &t.solve);
-    solve(t.block.data(), t.iterate.data(), t.active.data(), 2, 5, t.group.data(), Real(0), Real(0.3), &t.solve);
+      solve(t.block.data(), t.iterate.data(), t.active.data(), 0, kBlocks, t.group.data(), Real(0.5), Real(2), momentum,
+            &t.solve);
+    solve(t.block.data(), t.iterate.data(), t.active.data(), 2, 5, t.group.data(), Real(0), Real(2), Real(0.3),
+          &t.solve);
   };
   expect_the_bits_of<Real>(
       [&](Table<Real>& t) {
-        call([](auto... a) { scalar::solve(a...); }, t);
+        // Its arithmetic is that of discs that spin.
+        call([](auto* b, auto* i, auto* a, int first, int last, auto* bodies, Real mu, Real, Real momentum,
+                SolveSums* sums) { scalar::solve(b, i, a, first, last, bodies, mu, momentum, sums); },
+             t);
         EXPECT_GT(t.solve.touching, 50);
       },
       [&](const ContactKernels<Real>& k, Table<Real>& t) { call(k.solve, t); });
@@ -239,7 +244,7 @@ TYPED_TEST(ContactKernel, AssessHasTheBitsOfItsScalarTwinAndMovesNothing) {
       },
       [](const ContactKernels<Real>& k, Table<Real>& t) {
         k.assess(t.block.data(), t.iterate.data(), t.active.data(), 0, kBlocks, t.group.data(), t.before.data(),
-                 Real(0.5), &t.solve);
+                 Real(0.5), Real(2), &t.solve);
       });
 }
 

@@ -106,27 +106,29 @@ TEST(Parts, ADrySceneHasNoMeshNoFluidNoFreeSurfaceAndSaysWhy) {
       EXPECT_THAT(part.reason, testing::HasSubstr("dry")) << part.name;
     }
   }
-  EXPECT_THAT(built, testing::UnorderedElementsAre("grains", "walls", "pile"));
-  EXPECT_THAT(left_out, testing::IsSupersetOf({"mesh", "fluid", "free_surface", "coupling"}));
+  EXPECT_THAT(built, testing::UnorderedElementsAre("grains", "walls", "pile", "rotation"));
+  EXPECT_THAT(left_out, testing::UnorderedElementsAre("restitution", "mesh", "mesh_motion", "remeshing", "fluid",
+                                                      "convection", "free_surface", "surface_tension", "coupling"));
 }
 
 TEST(Parts, ASaturatedSceneHasAllThatADryOneLeavesOutForTheFluid) {
   scene::SceneSpec scene = small_drive(100, 0.5, pile::FlatTip{});
   scene.fluid.emplace();
   for (const Part& part : parts(scene)) {
-    EXPECT_EQ(part.built, part.name != "restitution") << part.name;
+    EXPECT_EQ(part.built, part.name != "restitution" && part.name != "surface_tension") << part.name;
     EXPECT_FALSE(part.reason.empty()) << part.name;
   }
   scene.fluid->surface.reset();
   for (const Part& part : parts(scene))
-    EXPECT_EQ(part.built, part.name != "restitution" && part.name != "free_surface");
+    EXPECT_EQ(part.built, part.name != "restitution" && part.name != "free_surface" && part.name != "surface_tension")
+        << part.name;
 }
 
 TEST(Parts, ABedAloneIsBuiltWithoutAPile) {
   scene::SceneSpec scene;
   scene.bed = small_bed(100, 0.5);
   for (const Part& part : parts(scene))
-    EXPECT_EQ(part.built, part.name == "grains" || part.name == "walls") << part.name;
+    EXPECT_EQ(part.built, part.name == "grains" || part.name == "walls" || part.name == "rotation") << part.name;
 }
 
 }  // namespace

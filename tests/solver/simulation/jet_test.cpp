@@ -138,7 +138,8 @@ TEST(Jet, HasNoGrainsAndSaysWhy) {
   scene::SceneSpec scene;
   scene.jet.emplace();
   for (const Part& part : parts(scene)) {
-    const bool of_the_fluid = part.name == "mesh" || part.name == "fluid" || part.name == "free_surface";
+    const bool of_the_fluid = part.name == "mesh" || part.name == "mesh_motion" || part.name == "fluid" ||
+                              part.name == "convection" || part.name == "free_surface";
     EXPECT_EQ(part.built, of_the_fluid) << part.name;
     EXPECT_FALSE(part.reason.empty());
   }
