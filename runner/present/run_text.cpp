@@ -105,7 +105,7 @@ std::string run_text(const store::Manifest& manifest, const std::filesystem::pat
 
 std::string part_line(const scene::Decision& part) {
   std::string line = fmt::format("{:<15} {:<9} {}", part.name, part.built ? "built" : "left out", part.reason);
-  if (part.criterion)
+  if (part.criterion && part.criterion->bound < 1)
     line += fmt::format("; without it: at most {:.2g} of {}", part.criterion->bound, part.criterion->answer);
   return line;
 }

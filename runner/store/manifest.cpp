@@ -88,9 +88,9 @@ RunHeader to_header(const Json& json) {
     read.reason = part.at("reason");
     read.by = part.value("by", kBy[0]) == kBy[1] ? scene::By::asked : scene::By::scene;
     if (const auto found = part.find("criterion"); found != part.end())
-      read.criterion = scene::Criterion{found->at("quantity"), to_number(found->at("number")),
-                                        to_number(found->at("threshold")), to_number(found->at("bound")),
-                                        found->at("answer")};
+      read.criterion =
+          scene::Criterion{found->at("quantity"), to_number(found->at("number")), to_number(found->at("threshold")),
+                           to_number(found->at("bound")), found->at("answer")};
   }
   for (const auto& [module, version] : json.at("numerics").items()) header.numerics.push_back({module, version});
   return header;

@@ -98,7 +98,8 @@ Members members_of(const Spec& spec) {
   return members;
 }
 
-/// What is forced of the model is written, and nothing else; to identity belongs only what the scene has a choice about.
+/// What is forced of the model is written, and nothing else; to identity belongs only what the scene has a choice
+/// about.
 template <Purpose kPurpose>
 void put_model(Members& members, const scene::SceneSpec& scene) {
   Members model = members_of<Purpose::identity>(scene.model);

@@ -155,8 +155,8 @@ double kinetic_energy_of(const fluid::Flow& flow) {
 }
 
 fluid::Flow flow_in(const BasinSpec& spec, mesh::TriangleMesh mesh) {
-  fluid::Flow flow = fluid::at_rest(std::move(mesh),
-                                    {spec.density, spec.viscosity, fluid::Geometry::planar, spec.convection});
+  fluid::Flow flow =
+      fluid::at_rest(std::move(mesh), {spec.density, spec.viscosity, fluid::Geometry::planar, spec.convection});
   std::vector<std::uint8_t> at_top(flow.mesh.vertices(), 0);
   for (const mesh::BoundaryEdge& e : flow.mesh.boundary)
     if (e.tag == mesh::kBasinTop) at_top[e.from] = at_top[e.to] = 1;

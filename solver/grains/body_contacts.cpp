@@ -75,7 +75,8 @@ BodySweep sweep_body_contacts(RigidBody& body, ContactSystem<Real>& system, cons
     Motion<Real>& grain = system.motion(c.grain);
     const Drift<Real>& d = system.drift(c.grain);
     const double m = static_cast<double>(grain.inverse_mass);
-    const double normal_mass = 1 / (m + body.inverse_mass), tangential_mass = 1 / ((1 + system.twist) * m + body.inverse_mass);
+    const double normal_mass = 1 / (m + body.inverse_mass),
+                 tangential_mass = 1 / ((1 + system.twist) * m + body.inverse_mass);
     const double gap = c.gap + c.nx * (path.x - static_cast<double>(d.dx)) + c.ny * (path.y - static_cast<double>(d.dy));
     const double wx = body.velocity.x - static_cast<double>(grain.vx), wy = body.velocity.y - static_cast<double>(grain.vy);
     const double vn = c.nx * wx + c.ny * wy;

@@ -83,8 +83,7 @@ struct ContactKernels {
   /// One Gauss-Seidel sweep over blocks [first, last), which starts from p + momentum (p - p_old) and leaves p in p_old.
   /// `sums` are added to.
   void (*solve)(ContactBlock<Real>* block, Iterate<Real>* iterate, const std::uint8_t* active, std::int32_t first,
-                std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real twist, Real momentum,
-                SolveSums* sums);
+                std::int32_t last, BodyGroup<Real>* bodies, Real friction, Real twist, Real momentum, SolveSums* sums);
 
   /// Residual of blocks [first, last) at the present impulses and velocities, nothing moved (natural map), and the
   /// impulses' work on the mean of the velocities now and those in `before`. `sums` are added to.

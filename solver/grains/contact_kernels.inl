@@ -186,7 +186,8 @@ void sweep(ContactBlock<Real>* blocks, const std::uint8_t* active, std::int32_t 
       const V new_pn = larger(wanted, zero);
       const V dpn = new_pn - pn;
 
-      // Friction: no slip, or the edge of the Coulomb cone. The tangential mass is a third of the normal one, or all of it without spin.
+      // Friction: no slip, or the edge of the Coulomb cone. The tangential mass is a third of the normal one, or all of
+      // it without spin.
       const V cone = mu * new_pn;
       const V stick = pt - mass * share * vt;
       const V new_pt = smaller(larger(stick, V(zero - cone)), cone);

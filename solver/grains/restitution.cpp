@@ -113,7 +113,8 @@ void rebound(ContactSystem<Real>& system, const Grains& grains, const ContactLaw
         const double px = p.pn * nx - p.pt * ny, py = p.pn * ny + p.pt * nx;
         push(first, -px, -py, p.pt, law.twist);
         push(second, px, py, p.pt, law.twist);
-        totals.dissipation -= p.pn * (now.normal + 0.5 * p.pn / mass) + p.pt * (now.tangential + 0.5 * arms * p.pt / mass);
+        totals.dissipation -=
+            p.pn * (now.normal + 0.5 * p.pn / mass) + p.pt * (now.tangential + 0.5 * arms * p.pt / mass);
         if (wall) totals.dissipation += late_gravity(law, -py);
         late_push(law, grains, i, wall ? -1 : j, {px, py}, totals);
         blocks.step_impulse[b].normal[lane] += p.pn;

@@ -21,7 +21,7 @@ Softness<double> softness(const ContactLaw& law, double smallest_radius) {
 
 template <class Real>
 Softness<Real> narrow(const Softness<double>& s) {
-  return {static_cast<Real>(s.inverse_h), static_cast<Real>(s.bias_rate), static_cast<Real>(s.mass_scale),
+  return {static_cast<Real>(s.inverse_h),     static_cast<Real>(s.bias_rate),  static_cast<Real>(s.mass_scale),
           static_cast<Real>(s.impulse_scale), static_cast<Real>(s.push_speed), static_cast<Real>(s.twist)};
 }
 

@@ -28,10 +28,9 @@ Decision judged(const char* name, Choice choice, Criterion criterion, bool below
   const std::string is = "the " + criterion.quantity + " is " + rounded(criterion.number);
   const char* side = needed == below ? "not above " : "above ";
   if (!below) side = needed ? "not below " : "below ";
-  decision.reason = choice == Choice::as_needed
-                        ? is + ", " + side + rounded(criterion.threshold)
-                        : std::string("the study says ") + (decision.built ? "yes" : "no") + ": \"model." + name +
-                              "\"; " + is;
+  decision.reason = choice == Choice::as_needed ? is + ", " + side + rounded(criterion.threshold)
+                                                : std::string("the study says ") + (decision.built ? "yes" : "no") +
+                                                      ": \"model." + name + "\"; " + is;
   decision.criterion = std::move(criterion);
   return decision;
 }
@@ -109,12 +108,11 @@ std::vector<Decision> of_jet(const SceneSpec& scene) {
   list.push_back(plain("fluid", true, jet));
   list.push_back(convection(scene, predicted));
   list.push_back(plain("free_surface", true, "the jet finds its own shape"));
-  list.push_back(scene.jet->capillary
-                     ? judged("surface_tension", scene.model.surface_tension,
-                              {"capillary number", *predicted.capillary, kLargeCapillary, 1 / *predicted.capillary,
-                               "swell ratio"},
-                              true)
-                     : plain("surface_tension", false, "the jet has none: \"capillary\" is null"));
+  list.push_back(scene.jet->capillary ? judged("surface_tension", scene.model.surface_tension,
+                                               {"capillary number", *predicted.capillary, kLargeCapillary,
+                                                1 / *predicted.capillary, "swell ratio"},
+                                               true)
+                                      : plain("surface_tension", false, "the jet has none: \"capillary\" is null"));
   list.push_back(plain("coupling", false, jet));
   return list;
 }
@@ -127,8 +125,8 @@ std::vector<Decision> of_basin(const SceneSpec& scene) {
   list.push_back(plain("pile", basin.pile.has_value(),
                        basin.pile ? "the basin has a pile" : "the basin has none: \"pile\" is null"));
   for (const char* name : {"rotation", "restitution"}) list.push_back(plain(name, false, water));
-  add_water(list, scene,
-            {basin.surface, basin.mesh.remesh.has_value(), basin.pile ? &basin.pile->driving : nullptr}, water);
+  add_water(list, scene, {basin.surface, basin.mesh.remesh.has_value(), basin.pile ? &basin.pile->driving : nullptr},
+            water);
   list.push_back(plain("coupling", false, water));
   return list;
 }
@@ -147,8 +145,8 @@ std::vector<Decision> of_grains(const SceneSpec& scene) {
       plain("restitution", scene.bed.grains.restitution > 0,
             scene.bed.grains.restitution > 0 ? "the grains rebound" : "the coefficient of restitution is 0")};
   if (!scene.fluid) {
-    for (const char* name : {"mesh", "mesh_motion", "remeshing", "fluid", "convection", "free_surface",
-                             "surface_tension", "coupling"})
+    for (const char* name :
+         {"mesh", "mesh_motion", "remeshing", "fluid", "convection", "free_surface", "surface_tension", "coupling"})
       list.push_back(plain(name, false, "the scene is dry: \"fluid\" is null"));
     return list;
   }
@@ -160,8 +158,8 @@ std::vector<Decision> of_grains(const SceneSpec& scene) {
 }
 
 /// Takes out of a basin or a fluid what is left out.
-void strip(std::optional<SurfaceSpec>& surface, std::optional<basin::RemeshSpec>& remesh,
-           fluid::Convection& convection, const ModelSpec& model) {
+void strip(std::optional<SurfaceSpec>& surface, std::optional<basin::RemeshSpec>& remesh, fluid::Convection& convection,
+           const ModelSpec& model) {
   if (model.free_surface == Choice::no) surface.reset();
   if (surface && model.surface_tension == Choice::no) surface->tension = 0;
   if (model.remeshing == Choice::no) remesh.reset();

@@ -115,8 +115,7 @@ Predictions predictions_of(const WaterScene& water) {
   }
   double speed = 0, length = 0, way = 2 * shape.amplitude;
   if (shape.amplitude > 0) {
-    speed = shape.amplitude *
-            wave_frequency(water.gravity, tension, water.density, water.depth, shape.wave_number);
+    speed = shape.amplitude * wave_frequency(water.gravity, tension, water.density, water.depth, shape.wave_number);
     length = 1 / shape.wave_number;
   }
   if (water.pile) {

@@ -11,10 +11,10 @@ namespace seapile::simulation {
 /// Grains and walls at rest, no pile.
 Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double friction, const Execution& execution);
 
-/// The pile above a settled bed, at its start or where `resume_from` (a snapshot of the same scene) left it. A saturated
-/// scene's grains are settled once more under their weight in the fluid, and the fluid is put around them. Throws
-/// std::invalid_argument when the bed or the snapshot is not one of this scene's, std::runtime_error when the grains do
-/// not settle, and mesh::NoMesh. Parts that the scene's analysis or its `model` leaves out are not built.
+/// The pile above a settled bed, at its start or where `resume_from` (a snapshot of the same scene) left it. A
+/// saturated scene's grains are settled once more under their weight in the fluid, and the fluid is put around them.
+/// Throws std::invalid_argument when the bed or the snapshot is not one of this scene's, std::runtime_error when the
+/// grains do not settle, and mesh::NoMesh. Parts that the scene's analysis or its `model` leaves out are not built.
 Simulation build(const scene::SceneSpec& asked, const Bed& bed, const Execution& execution,
                  const std::vector<Array>& resume_from = {});
 

@@ -34,11 +34,12 @@ constexpr const char* kBedScene =
     R"("step":0.0005,"stiffness":0.125,"substeps":10},"fluid":null)";
 
 std::vector<simulation::Part> parts(bool with_pile) {
-  return {{"grains", true, "every scene has grains"},
-          {"walls", true, "every scene has a box"},
-          {"pile", with_pile, with_pile ? "the scene has a pile" : "the scene has no pile"},
-          {"mesh", false, "a dry scene has no mesh", scene::By::asked, scene::Criterion{"share", 0.25, 0.5, 1e-3, "mean"}},
-          {"fluid", false, "the scene has no fluid"}};
+  return {
+      {"grains", true, "every scene has grains"},
+      {"walls", true, "every scene has a box"},
+      {"pile", with_pile, with_pile ? "the scene has a pile" : "the scene has no pile"},
+      {"mesh", false, "a dry scene has no mesh", scene::By::asked, scene::Criterion{"share", 0.25, 0.5, 1e-3, "mean"}},
+      {"fluid", false, "the scene has no fluid"}};
 }
 
 std::vector<Array> bed_grains() {

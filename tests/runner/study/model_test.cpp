@@ -84,7 +84,8 @@ TEST_F(ModelStudy, AnAxisOverAPartThatTheSceneHasNotIsRefused) {
 }
 
 TEST_F(ModelStudy, SoIsAChoiceThatNoCaseHas) {
-  for (const char* base : {R"({"basin": {}, "model": {"rotation": "no"}})", R"({"pile": {}, "model": {"remeshing": "no"}})"}) {
+  for (const char* base :
+       {R"({"basin": {}, "model": {"rotation": "no"}})", R"({"pile": {}, "model": {"remeshing": "no"}})"}) {
     try {
       study(R"("base": )" + std::string(base));
       FAIL() << base;

@@ -142,8 +142,8 @@ TEST(Analysis, ADrySceneHasNothingOfAFluid) {
   SceneSpec scene;
   scene.pile.emplace();
   EXPECT_FALSE(predictions(scene));
-  for (const char* name : {"mesh", "mesh_motion", "remeshing", "fluid", "convection", "free_surface",
-                           "surface_tension", "coupling"}) {
+  for (const char* name :
+       {"mesh", "mesh_motion", "remeshing", "fluid", "convection", "free_surface", "surface_tension", "coupling"}) {
     EXPECT_FALSE(built(scene, name)) << name;
     EXPECT_EQ(of(scene, name).reason, "the scene is dry: \"fluid\" is null") << name;
   }
