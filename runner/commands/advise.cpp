@@ -10,10 +10,10 @@
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/present/advice.h"
+#include "runner/present/work.h"
 #include "runner/study/measured_file.h"
 #include "runner/study/resolved.h"
 #include "runner/study/unit.h"
-#include "solver/pile/pile.h"
 
 namespace seapile::commands {
 namespace {
@@ -66,16 +66,6 @@ std::string class_of(const scene::SceneSpec& scene) {
   return !scene.pile ? "bed" : scene.fluid ? "saturated drive" : "dry drive";
 }
 
-/// What costs are scaled by: of a drive grains times seconds, of a basin seconds, of a jet nothing.
-double work_of(const scene::SceneSpec& scene) {
-  if (scene.jet) return 1;
-  if (scene.basin) return scene.basin->time.duration;
-  const pile::PileSpec& pile = *scene.pile;
-  double time = pile.duration.value_or(std::numeric_limits<double>::infinity());
-  if (pile.depth) time = std::min(time, pile::time_to_reach(pile.driving, *pile.depth));
-  return static_cast<double>(scene.bed.grains.count) * time;
-}
-
 /// Whether a level is another way to compute, and not another scene.
 bool is_way_to_compute(const study::VariantText& variant) {
   return std::ranges::none_of(
@@ -106,7 +96,7 @@ struct Record {
 Record read_record(const fs::path& file, const std::string& metric) {
   Record record{study::read(file), {}};
   record.frontier.study = record.study.name;
-  record.frontier.work = work_of(record.study.cases.front().scene);
+  record.frontier.work = present::work_of(record.study.cases.front().scene);
   const auto number = [](const study::MeasuredRow& row, const std::string& name) {
     const auto found = row.number.find(name);
     return found == row.number.end() ? std::nan("") : found->second;
@@ -185,7 +175,7 @@ bool tell(const std::string& name, const std::vector<const study::Case*>& cases,
     may_use.push_back(variant != first->study.variants.end() && is_way_to_compute(*variant));
   }
   double work = 0;
-  for (const study::Case* one : cases) work += work_of(one->scene);
+  for (const study::Case* one : cases) work += present::work_of(one->scene);
   const present::Advice advice = present::advise(frontiers, may_use, asked.tolerance, work);
   std::string from;
   for (const present::MeasuredFrontier& one : frontiers) from += (from.empty() ? "" : ", ") + one.study;

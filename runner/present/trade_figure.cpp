@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 1100, kPlot = 760, kAxis = 92, kGap = 24, kBottom = 70, kLine = 17;  // pixels
+constexpr int kWidth = 1100, kPlot = 760, kAxis = 118, kGap = 24, kBottom = 70, kLine = 17;  // pixels
 constexpr std::size_t kCharacters = 104;
 constexpr double kPercent = 100;
 
@@ -112,9 +112,9 @@ std::string gnuplot_script(const std::string& title, const TradedGroup& group, s
                         static_cast<double>(kAxis) / kWidth, static_cast<double>(kPlot) / kWidth);
   script += fmt::format("set xrange [{:.6g}:*<{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", 0.7 * cheapest, 1e9, 0.6 * floor,
                         ceiling);
-  script += fmt::format(
-      "set xlabel 'CPU time of a run (s)' tc rgb '#1a1a1a'\nset ylabel {} noenhanced offset 1.2,0 tc rgb '#1a1a1a'\n",
-      quoted(fmt::format("error of {} (%)", group.metrics[metric])));
+  script +=
+      fmt::format("set xlabel 'CPU time of a run (s)' tc rgb '#1a1a1a'\nset ylabel {} noenhanced tc rgb '#1a1a1a'\n",
+                  quoted(fmt::format("error of {} (%)", group.metrics[metric])));
   script += names;
   const auto [colour, dash] = style_of(0);
   script += fmt::format("$all << END\n{}END\n", all);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "runner/study/unit.h"
@@ -104,6 +106,8 @@ nlohmann::ordered_json as_json(const Value& value) {
       break;
     case Kind::number:
       json = value.number;
+      if (value.number == std::floor(value.number) && std::abs(value.number) < 1e15)
+        json = static_cast<std::int64_t>(value.number);
       break;
     case Kind::string:
       json = value.text;
