@@ -13,6 +13,7 @@
 #include "runner/commands/packings.h"
 #include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/present/edge_figure.h"
 #include "runner/present/run_text.h"
 #include "runner/present/summary.h"
 #include "runner/store/catalogue.h"
@@ -74,6 +75,16 @@ std::optional<std::int64_t> more_packings(const study::Study& study, const fs::p
   return static_cast<std::int64_t>(round->next);
 }
 
+/// A map of the edges, where an axis is a number: STUDY_edge.svg.
+void draw_edges(const study::Study& study, const std::vector<present::EdgeSearch>& searches, const fs::path& root) {
+  const fs::path svg = root / "figures" / (study.name + "_edge.svg");
+  try {
+    if (present::draw(study.question, searches, svg)) fmt::print("\n{}\n", svg.string());
+  } catch (const store::StoreError& error) {
+    fmt::print(stderr, "{}\n", error.what());  // The results stand without their picture.
+  }
+}
+
 /// Both ends of an edge, then what the results ask for. A run that diverges is a result here and is not tried again;
 /// all that was tried stays in the catalogue under the study.
 int run_edge(const RunArguments& arguments) {
@@ -103,6 +114,7 @@ int run_edge(const RunArguments& arguments) {
     }
     if (!arguments.dry_run) store::Catalogue::open(root).put(execute::entry_of(study));
     fmt::print("{}", present::text(present::edge_table(searches), present::Format::table));
+    if (!arguments.dry_run) draw_edges(study, searches, root);
     return execute::kDone;
   }
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "runner/present/edge_figure.h"
+
 namespace seapile::present {
 namespace {
 
@@ -72,6 +74,21 @@ TEST(Edge, AProbeWithoutAResultIsTriedAgain) {
   search.probes = {{1, true, ""}, {4, true, "it broke"}, {2, false, ""}};
   EXPECT_THAT(judge(search).next, testing::ElementsAre(2));
   EXPECT_EQ(judge(search).end, EdgeEnd::searching);
+}
+
+TEST(Edge, AMapShowsWhatWasFoundAndWhatHoldsOrFailsThroughout) {
+  EdgeSearch found = searched(between(1e-4, 1), [](double x) { return x < 0.3; }), always = between(1, 2),
+             never = between(1, 2);
+  found.labels = {{"scheme", "implicit"}, {"speed", "0.2 m/s"}};
+  always.labels = {{"scheme", "implicit"}, {"speed", "0.4 m/s"}};
+  never.labels = {{"scheme", "explicit"}, {"speed", "0.2 m/s"}};
+  const std::string script = gnuplot_script(
+      "t", {found, searched(always, [](double) { return true; }), searched(never, [](double) { return false; })});
+  using testing::HasSubstr;
+  for (const char* part : {"$found_0", "$holds_0", "$fails_1", "\"speed (m/s)\"", "scheme explicit"})
+    EXPECT_THAT(script, HasSubstr(part));
+  found.labels.pop_back();
+  EXPECT_EQ(gnuplot_script("t", {found}), "") << "no axis is a number";
 }
 
 }  // namespace
