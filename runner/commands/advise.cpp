@@ -205,7 +205,11 @@ int advise(const AdviseArguments& arguments) {
   const Asked wanted = asked(arguments.tolerance);
   const Study study = study::read(arguments.study, arguments.options);
   std::vector<Record> records;
-  for (const fs::path& file : candidates(arguments)) records.push_back(read_record(file, wanted.metric));
+  for (const fs::path& file : candidates(arguments)) {
+    const Study one = study::read(file);
+    // What a part does is no level of anything.
+    if (one.trade && one.trade->kind == study::TradeKind::frontier) records.push_back(read_record(file, wanted.metric));
+  }
   std::map<std::string, std::vector<const study::Case*>> by_class;
   for (const study::Case& one : study.cases) by_class[class_of(one.scene)].push_back(&one);
   bool all = true;

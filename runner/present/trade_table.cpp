@@ -29,8 +29,11 @@ std::string list_of(const std::vector<std::string>& items) {
   return list;
 }
 
+/// Of fewer pairs no choice of signs is as rare as one in twenty, whatever they say.
+constexpr std::size_t kLeastPairs = 6;
+
 /// Whether a difference as large is no rarer than one in twenty without any.
-bool is_chance(const TradeError& error) { return error.chance > kAlpha; }
+bool is_chance(const TradeError& error) { return error.n >= kLeastPairs && error.chance > kAlpha; }
 
 }  // namespace
 

@@ -50,6 +50,12 @@ TEST_F(Advise, SaysThatNoneHoldsOrThatNothingIsKnown) {
   EXPECT_THAT(unknown.out, HasSubstr("nothing is known"));
 }
 
+TEST_F(Advise, DoesNotGoByAblations) {
+  place.write("fine.json", waves("fine", R"("variants": [{"name": "short", "set": {"basin.time.step": "1 ms"}},
+      {"name": "long", "set": {"basin.time.step": "10 ms"}}], "ablate": {"whole": "short", "of": ["frequency_error"]})"));
+  EXPECT_THAT(place.run({"advise", "mine.json", "--tol", "frequency=2%"}).out, HasSubstr("nothing is known"));
+}
+
 TEST_F(Advise, RefusesWhatIsNoToleranceAndRecordsThatAreNone) {
   for (const char* tolerance : {"qc", "=5%", "qc=-5%", "qc=five", "qc=5%x"}) {
     const Finished bad = place.run({"advise", "mine.json", "--tol", tolerance});

@@ -64,6 +64,8 @@ TEST(Trade, WhatIsNoMoreThanChanceIsSaid) {
   EXPECT_LT(other[1].errors[1].chance, 0.01);
   EXPECT_THAT(trade_text({group(0, 0.1, 10)}, false), HasSubstr("q is not distinguishable from \"reference\""));
   EXPECT_THAT(trade_text({group(0.2, 0.1, 10)}, false), Not(HasSubstr("not distinguishable")));
+  EXPECT_THAT(trade_text({group(3, 0.1, 5)}, false), Not(HasSubstr("not distinguishable")))
+      << "five signs tell nothing";
 }
 
 // Of studies in which nothing differs, one in twenty is called different; and bounds hold the truth in 19 of 20.
