@@ -13,7 +13,6 @@
 #include "runner/present/work.h"
 #include "runner/study/measured_file.h"
 #include "runner/study/resolved.h"
-#include "runner/study/unit.h"
 
 namespace seapile::commands {
 namespace {
@@ -82,8 +81,8 @@ void add(std::vector<present::MeasuredLevel>& levels, const present::MeasuredLev
   known->cpu_seconds = std::max(known->cpu_seconds, level.cpu_seconds);
   known->runs += level.runs;
   known->asked += level.asked;
-  if (known->bound >= level.bound) return;
-  known->bound = level.bound;  // NaN, where nothing is known, wins
+  if (std::isnan(known->bound) || known->bound >= level.bound) return;  // NaN: nothing is known there
+  known->bound = level.bound;
   known->error = level.error;
 }
 
@@ -93,21 +92,25 @@ struct Record {
   present::MeasuredFrontier frontier;
 };
 
-Record read_record(const fs::path& file, const std::string& metric) {
-  Record record{study::read(file), {}};
+Record read_record(const fs::path& file, Study study, const std::string& metric) {
+  Record record{std::move(study), {}};
   record.frontier.study = record.study.name;
   record.frontier.work = present::work_of(record.study.cases.front().scene);
   const auto number = [](const study::MeasuredRow& row, const std::string& name) {
     const auto found = row.number.find(name);
     return found == row.number.end() ? std::nan("") : found->second;
   };
+  const auto count = [&](const study::MeasuredRow& row, const std::string& name) {
+    const double value = number(row, name);
+    return value > 0 ? static_cast<std::size_t>(value) : 0;
+  };
   for (const study::MeasuredRow& row : study::read_measured(study::measured_path(file, record.study.name))) {
     const present::MeasuredLevel level{row.variant,
                                        number(row, "cpu"),
                                        number(row, "error:" + metric + ".mean") / 100,
                                        number(row, "bound:" + metric) / 100,
-                                       static_cast<std::size_t>(number(row, "runs")),
-                                       static_cast<std::size_t>(number(row, "asked"))};
+                                       count(row, "runs"),
+                                       count(row, "asked")};
     add(record.frontier.levels, level);
   }
   return record;
@@ -206,9 +209,10 @@ int advise(const AdviseArguments& arguments) {
   const Study study = study::read(arguments.study, arguments.options);
   std::vector<Record> records;
   for (const fs::path& file : candidates(arguments)) {
-    const Study one = study::read(file);
+    Study one = study::read(file);
     // What a part does is no level of anything.
-    if (one.trade && one.trade->kind == study::TradeKind::frontier) records.push_back(read_record(file, wanted.metric));
+    if (one.trade && one.trade->kind == study::TradeKind::frontier)
+      records.push_back(read_record(file, std::move(one), wanted.metric));
   }
   std::map<std::string, std::vector<const study::Case*>> by_class;
   for (const study::Case& one : study.cases) by_class[class_of(one.scene)].push_back(&one);

@@ -14,17 +14,13 @@ namespace {
 
 using Finished = std::vector<store::FinishedCase>;  // packings of one case, in their order
 
-bool matches(const std::string& rule, const std::string& metric) {
-  return rule.ends_with('*') ? metric.starts_with(std::string_view(rule).substr(0, rule.size() - 1)) : metric == rule;
-}
-
 /// `without`: a case that lacks the metric; another one may have it, where the name is right.
 base::Problem no_metric(const std::string& rule, const std::vector<Finished>& cases, const std::string& without) {
   std::vector<std::string> names;
   for (const Finished& packings : cases) {
     for (std::string& name : packings.front().metric_names()) names.push_back(std::move(name));
   }
-  const bool known = std::ranges::any_of(names, [&](const std::string& name) { return matches(rule, name); });
+  const bool known = std::ranges::any_of(names, [&](const std::string& name) { return store::means(rule, name); });
   if (!known) {
     return {"/replicates/metric", fmt::format("no finished case has a metric \"{}\"", rule),
             "a metric that `runner show` lists", study::nearest(rule, names)};
@@ -38,7 +34,7 @@ base::Problem no_metric(const std::string& rule, const std::vector<Finished>& ca
 std::vector<std::vector<double>> values_of(const std::string& rule, const Finished& packings) {
   std::vector<std::vector<double>> all;
   for (const std::string& name : packings.front().metric_names()) {
-    if (!matches(rule, name)) continue;
+    if (!store::means(rule, name)) continue;
     std::vector<double> values;
     for (const store::FinishedCase& one : packings) {
       const simulation::Metric* metric = one.metric(name);

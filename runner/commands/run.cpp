@@ -123,12 +123,12 @@ int run_edge(const RunArguments& arguments) {
 /// results are all there is only read, so that the same command finds its way through what it has done to where it
 /// ended.
 int run(const RunArguments& arguments) {
-  if (study::read(arguments.study, arguments.options).edge) return run_edge(arguments);
   const fs::path root = arguments.campaign.root;
   study::Options options = arguments.options;
   std::string text;  // of the study: its SHA-256
   for (;;) {
     const study::Study study = study::read(arguments.study, options);
+    if (study.edge) return run_edge(arguments);
     if (!text.empty() && text != study.file_sha256)
       throw UsageError(arguments.study + " was changed while it ran; give the command again");
     text = study.file_sha256;

@@ -13,16 +13,11 @@
 namespace seapile::commands {
 namespace {
 
-bool matches(const std::string& asked, const std::string& metric) {
-  return asked.ends_with('*') ? metric.starts_with(std::string_view(asked).substr(0, asked.size() - 1))
-                              : metric == asked;
-}
-
 /// The number, or those of a curve, that a run has under the name; a bin that a run does not reach is left out.
 std::vector<double> values_of(const store::FinishedCase& run, const std::string& asked) {
   std::vector<double> values;
   for (const std::string& name : run.metric_names())
-    if (matches(asked, name) && std::isfinite(run.metric(name)->value)) values.push_back(run.metric(name)->value);
+    if (store::means(asked, name) && std::isfinite(run.metric(name)->value)) values.push_back(run.metric(name)->value);
   return values;
 }
 
@@ -72,7 +67,8 @@ std::vector<present::TradedGroup> traded(const study::Study& study, const std::f
   }
   base::Problems problems;
   for (const std::string& metric : study.trade->metrics) {
-    if (finished == 0 || std::ranges::any_of(known, [&](const auto& name) { return matches(metric, name); })) continue;
+    if (finished == 0 || std::ranges::any_of(known, [&](const auto& name) { return store::means(metric, name); }))
+      continue;
     problems.push_back({study.trade->kind == study::TradeKind::frontier ? "/frontier/of" : "/ablate/of",
                         fmt::format("no finished case has a metric \"{}\"", metric),
                         "a metric that `runner show` lists", study::nearest(metric, {known.begin(), known.end()})});

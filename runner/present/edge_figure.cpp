@@ -110,14 +110,9 @@ std::string gnuplot_script(const std::string& title, const std::vector<EdgeSearc
                                "or fails (down) as far as was tried.",
                                kWidth, kHeight, kCharacters);
   std::string script = head.script;
-  script +=
-      "set border 3 lw 1 lc rgb '#8c8c8c'\n"
-      "set logscale xy\n"
-      "set xtics out nomirror scale 0.6 tc rgb '#444444'\n"
-      "set ytics out nomirror scale 0.6 tc rgb '#444444'\n"
-      "set grid xtics ytics back lt 1 lw 1 lc rgb '#e8e8e8'\n"
-      "set format xy '%g'\n"
-      "set key outside right top reverse Left noenhanced samplen 1.5 spacing 1.25 tc rgb '#1a1a1a'\n";
+  script += std::string(kLogarithmicAxes) +
+            "set format xy '%g'\n"
+            "set key outside right top reverse Left noenhanced samplen 1.5 spacing 1.25 tc rgb '#1a1a1a'\n";
   script += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\nset lmargin at screen {:.4f}\n",
                         1 - static_cast<double>(head.bottom + kGap) / kHeight, static_cast<double>(kBottom) / kHeight,
                         static_cast<double>(kAxis) / kWidth);

@@ -22,6 +22,14 @@ struct Style {
 };
 Style style_of(std::size_t group);
 
+/// Both axes by powers of ten, with a grid.
+inline constexpr std::string_view kLogarithmicAxes =
+    "set border 3 lw 1 lc rgb '#8c8c8c'\n"
+    "set logscale xy\n"
+    "set xtics out nomirror scale 0.6 tc rgb '#444444'\n"
+    "set ytics out nomirror scale 0.6 tc rgb '#444444'\n"
+    "set grid xtics ytics back lt 1 lw 1 lc rgb '#e8e8e8'\n";
+
 /// The beginning of a script: the terminal, and from the picture's upper edge a title and a note in words. Lengths in
 /// pixels.
 struct Heading {

@@ -99,13 +99,7 @@ std::string gnuplot_script(const std::string& title, const TradedGroup& group, s
     if (point.on_frontier) frontier += fmt::format("{:.6g} {:.6g}\n", cpu, y);
   }
   std::string script = head.script;
-  script +=
-      "set border 3 lw 1 lc rgb '#8c8c8c'\n"
-      "set logscale xy\n"
-      "set xtics out nomirror scale 0.6 tc rgb '#444444'\n"
-      "set ytics out nomirror scale 0.6 tc rgb '#444444'\n"
-      "set grid xtics ytics back lt 1 lw 1 lc rgb '#e8e8e8'\n"
-      "unset key\n";
+  script += std::string(kLogarithmicAxes) + "unset key\n";
   script += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
                         1 - static_cast<double>(head.bottom + kGap) / height, static_cast<double>(kBottom) / height);
   script += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n",

@@ -35,17 +35,20 @@ constexpr std::size_t kLeastPairs = 6;
 /// Whether a difference as large is no rarer than one in twenty without any.
 bool is_chance(const TradeError& error) { return error.n >= kLeastPairs && error.chance > kAlpha; }
 
-}  // namespace
+/// The levels of each group.
+using Judged = std::vector<std::vector<TradeLevel>>;
 
-Grouped trade_table(const std::vector<TradedGroup>& groups, bool ablation) {
+Judged judged_of(const std::vector<TradedGroup>& groups) {
+  Judged judged;
+  for (const TradedGroup& group : groups) judged.push_back(judge(group));
+  return judged;
+}
+
+Grouped table_of(const std::vector<TradedGroup>& groups, const Judged& judged, bool ablation) {
   Grouped grouped;
   store::Table& table = grouped.table;
   std::vector<Labels> labels;
-  std::vector<std::vector<TradeLevel>> judged;
-  for (const TradedGroup& group : groups) {
-    judged.push_back(judge(group));
-    labels.insert(labels.end(), group.variants.size(), group.labels);
-  }
+  for (const TradedGroup& group : groups) labels.insert(labels.end(), group.variants.size(), group.labels);
   table = label_table(labels);
   const auto add = [&](std::string name, const char* unit) {
     table.columns.push_back(std::move(name));
@@ -92,11 +95,19 @@ Grouped trade_table(const std::vector<TradedGroup>& groups, bool ablation) {
   return grouped;
 }
 
+}  // namespace
+
+Grouped trade_table(const std::vector<TradedGroup>& groups, bool ablation) {
+  return table_of(groups, judged_of(groups), ablation);
+}
+
 std::string trade_text(const std::vector<TradedGroup>& groups, bool ablation) {
-  const Grouped grouped = trade_table(groups, ablation);
+  const Judged judged = judged_of(groups);
+  const Grouped grouped = table_of(groups, judged, ablation);
   std::string lines = text(grouped.table, Format::table, grouped.means) + "\n";
-  for (const TradedGroup& group : groups) {
-    for (const TradeLevel& level : judge(group)) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const TradedGroup& group = groups[g];
+    for (const TradeLevel& level : judged[g]) {
       if (!level.failures.empty())
         lines += fmt::format("{}: {} of {} runs have no result: {}\n", place_of(group, level.name),
                              level.asked - level.completed, level.asked, list_of(level.failures));

@@ -22,6 +22,10 @@ std::vector<std::string> FinishedCase::metric_names() const {
   return names;
 }
 
+bool means(const std::string& name, const std::string& metric) {
+  return name.ends_with('*') ? metric.starts_with(std::string_view(name).substr(0, name.size() - 1)) : metric == name;
+}
+
 std::optional<FinishedCase> read_finished(const std::filesystem::path& root, const std::string& case_id,
                                           bool with_bed) {
   const std::filesystem::path run = newest_run(root, case_id);

@@ -21,6 +21,9 @@ struct FinishedCase {
   std::vector<std::string> metric_names() const;
 };
 
+/// Whether a name means a metric: it is its name, or with a "*" at its end the beginning of it.
+bool means(const std::string& name, const std::string& metric);
+
 /// Absent when the case has no complete run, or when the newest one is not completed. `with_bed`: its metrics are read
 /// too, where the bed's run is still there. Throws StoreError.
 std::optional<FinishedCase> read_finished(const std::filesystem::path& root, const std::string& case_id, bool with_bed);

@@ -50,6 +50,16 @@ TEST_F(Advise, SaysThatNoneHoldsOrThatNothingIsKnown) {
   EXPECT_THAT(unknown.out, HasSubstr("nothing is known"));
 }
 
+// Whichever of a frontier's scenes lacks the number.
+TEST_F(Advise, ALevelOfWhichNothingIsKnownInOneSceneIsNotAdvised) {
+  const std::string head = "variant,runs[-],asked[-],cpu[s],error:frequency_error.mean[%],bound:frequency_error[%]\n";
+  const std::string known = "long,1,1,2,1,1.5\n", unknown = "long,1,1,3,,\n", other = "short,1,1,20,0.01,0.02\n";
+  for (const std::string& rows : {known + unknown, unknown + known}) {
+    place.write("measured/fine.csv", head + rows + other);
+    EXPECT_THAT(place.run({"advise", "mine.json", "--tol", "frequency=2%"}).out, HasSubstr("\"short\"")) << rows;
+  }
+}
+
 TEST_F(Advise, DoesNotGoByAblations) {
   place.write("fine.json", waves("fine", R"("variants": [{"name": "short", "set": {"basin.time.step": "1 ms"}},
       {"name": "long", "set": {"basin.time.step": "10 ms"}}], "ablate": {"whole": "short", "of": ["frequency_error"]})"));
