@@ -148,7 +148,7 @@ std::vector<std::string> differences(const scene::SceneSpec& scene, const scene:
 std::string level_line(const study::VariantText& variant) {
   std::string line;
   for (const auto& [path, value] : variant.set) line += fmt::format(" --set \"{}={}\"", path, value);
-  if (!variant.fidelity.empty()) line += fmt::format(" (fidelity {})", variant.fidelity);
+  if (!variant.fidelity.empty()) line += " --fidelity " + variant.fidelity;
   return line;
 }
 

@@ -26,6 +26,7 @@ void add_study_options(CLI::App& command, study::Options& options) {
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
+  command.add_option("--fidelity", options.fidelity, "Level of fidelity, in place of the study's")->type_name("LEVEL");
   command.add_option("--seeds", options.seeds, "Repeat every case on N packings: bed.seed = 1..N")->type_name("N");
 }
 

@@ -85,6 +85,14 @@ void draw_edges(const study::Study& study, const std::vector<present::EdgeSearch
   }
 }
 
+/// Which parts numbers or the study decided about, and what a scene is too small for.
+void say_what_is_built(const study::Study& study) {
+  std::vector<scene::SceneSpec> scenes;
+  for (const study::Case& one : study.cases) scenes.push_back(one.scene);
+  for (const std::string& line : present::decision_lines(scenes)) fmt::print(stderr, "{}\n", line);
+  for (const std::string& line : present::warning_lines(scenes)) fmt::print(stderr, "{}\n", line);
+}
+
 /// Both ends of an edge, then what the results ask for. A run that diverges is a result here and is not tried again;
 /// all that was tried stays in the catalogue under the study.
 int run_edge(const RunArguments& arguments) {
@@ -142,12 +150,8 @@ int run(const RunArguments& arguments) {
       if (options.packings) continue;
     }
     for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
-    if (arguments.dry_run) {
-      std::vector<scene::SceneSpec> scenes;
-      for (const study::Case& one : study.cases) scenes.push_back(one.scene);
-      for (const std::string& line : present::decision_lines(scenes)) fmt::print(stderr, "{}\n", line);
-      return execute::kDone;
-    }
+    if (arguments.dry_run || !idle) say_what_is_built(study);
+    if (arguments.dry_run) return execute::kDone;
     if (idle) fmt::print(stderr, "nothing to run: every case is fresh\n");
 
     const int code = campaign.carry_out();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runner/present/table.h"
+#include "solver/scene/warnings.h"
 
 namespace seapile::present {
 namespace {
@@ -66,6 +67,25 @@ std::string provenance_text(const store::Provenance& made) {
   return text;
 }
 
+/// The lines that `lines_of` a scene says, each once, with how many of the scenes it is said of.
+std::vector<std::string> each_once(const std::vector<scene::SceneSpec>& scenes, auto&& lines_of) {
+  std::vector<std::string> lines;
+  std::vector<std::size_t> cases;
+  for (const scene::SceneSpec& scene : scenes)
+    for (const std::string& line : lines_of(scene)) {
+      const auto known = std::ranges::find(lines, line);
+      if (known == lines.end()) {
+        lines.push_back(line);
+        cases.push_back(1);
+      } else {
+        ++cases[static_cast<std::size_t>(known - lines.begin())];
+      }
+    }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (cases[i] < scenes.size()) lines[i] = fmt::format("{} ({} of {} cases)", lines[i], cases[i], scenes.size());
+  return lines;
+}
+
 }  // namespace
 
 std::string run_text(const store::Manifest& manifest, const std::filesystem::path& run_folder,
@@ -111,23 +131,16 @@ std::string part_line(const scene::Decision& part) {
 }
 
 std::vector<std::string> decision_lines(const std::vector<scene::SceneSpec>& scenes) {
-  std::vector<std::string> lines;
-  std::vector<std::size_t> cases;
-  for (const scene::SceneSpec& scene : scenes)
-    for (const scene::Decision& part : scene::decisions(scene)) {
-      if (!part.criterion && part.by == scene::By::scene) continue;
-      const std::string line = part_line(part);
-      const auto known = std::ranges::find(lines, line);
-      if (known == lines.end()) {
-        lines.push_back(line);
-        cases.push_back(1);
-      } else {
-        ++cases[static_cast<std::size_t>(known - lines.begin())];
-      }
-    }
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    if (cases[i] < scenes.size()) lines[i] = fmt::format("{} ({} of {} cases)", lines[i], cases[i], scenes.size());
-  return lines;
+  return each_once(scenes, [](const scene::SceneSpec& scene) {
+    std::vector<std::string> lines;
+    for (const scene::Decision& part : scene::decisions(scene))
+      if (part.criterion || part.by == scene::By::asked) lines.push_back(part_line(part));
+    return lines;
+  });
+}
+
+std::vector<std::string> warning_lines(const std::vector<scene::SceneSpec>& scenes) {
+  return each_once(scenes, scene::warnings);
 }
 
 std::string study_text(const store::Manifest& manifest) {

@@ -19,6 +19,9 @@ std::string part_line(const scene::Decision& part);
 /// The lines of what numbers or the study decided in these scenes, each once, with how many of them it is said of.
 std::vector<std::string> decision_lines(const std::vector<scene::SceneSpec>& scenes);
 
+/// The lines of what these scenes are too small for, each once, with how many of them it is said of.
+std::vector<std::string> warning_lines(const std::vector<scene::SceneSpec>& scenes);
+
 /// A study file whose only case is this run's.
 std::string study_text(const store::Manifest& manifest);
 

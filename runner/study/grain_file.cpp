@@ -14,6 +14,7 @@
 #include "runner/study/study.h"
 #include "runner/study/text_file.h"
 #include "runner/study/unit.h"
+#include "solver/grains/neighbours.h"
 
 namespace seapile::study {
 namespace {
@@ -23,6 +24,8 @@ constexpr std::size_t kMostRows = 10'000'000;  // As many as GrainsSpec::count a
 constexpr double kLargestRadius = 10;          // [m], as RadiusSpec allows.
 // Soft contacts let a settled grain pass a wall by a share of its radius that is well below this one.
 constexpr double kWallOverlap = 0.05;
+// What is deeper is pushed apart by steps that mean nothing; solver/simulation/bounds.h lets no step leave more.
+constexpr double kGrainOverlap = 0.5;
 constexpr std::string_view kHeader = "id,x,y,radius";
 
 /// Takes one line apart; absent after a report.
@@ -89,6 +92,33 @@ std::string shortest(double number) {
   return std::string(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr);
 }
 
+/// Refuses each grain that lies too deep in an earlier one, as a contact's normal there points to the wrong side, and
+/// of two grains at one place nowhere. `lines`: (id, line) of each row.
+void refuse_overlaps(const std::vector<GrainRow>& rows, const std::vector<std::pair<std::int64_t, std::size_t>>& lines,
+                     RowReader& reader) {
+  constexpr std::int32_t kAtOnce = 1024;  // so that a file of one grain over and over does not fill the memory
+  std::vector<grains::Disc> discs;
+  for (const GrainRow& row : rows) discs.push_back({row.x, row.y, row.radius});
+  const grains::CellGrid grid(discs, 0);
+  std::vector<bool> refused(rows.size(), false);
+  std::vector<grains::Pair> touching;
+  const auto count = static_cast<std::int32_t>(rows.size());
+  for (std::int32_t first = 0; first < count; first += kAtOnce) {
+    touching.clear();
+    grid.find_pairs(first, std::min(first + kAtOnce, count), touching);
+    for (const auto [i, j] : touching) {
+      const grains::Disc &a = discs[i], &b = discs[j];
+      const double overlap = (a.radius + b.radius - std::hypot(a.x - b.x, a.y - b.y)) / std::min(a.radius, b.radius);
+      if (overlap <= kGrainOverlap || refused[j]) continue;
+      refused[j] = true;
+      reader.refuse(
+          lines[j].second,
+          fmt::format("the grain overlaps that of line {} by {:.2g} radii of the smaller", lines[i].second, overlap),
+          fmt::format("at most {}", number_text(kGrainOverlap)));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<GrainRow> parse_grains(std::string_view csv, const scene::DomainSpec& box, base::Problems& problems) {
@@ -118,6 +148,7 @@ std::vector<GrainRow> parse_grains(std::string_view csv, const scene::DomainSpec
   }
   if (line_number == 0) reader.refuse(1, "is missing", std::string(kHeader));
 
+  if (problems.empty()) refuse_overlaps(rows, lines, reader);
   std::sort(lines.begin(), lines.end());
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (lines[i].first != lines[i - 1].first) continue;

@@ -255,10 +255,12 @@ class Reader {
   }
 
   void read_fidelity() {
-    const Value* value = member("fidelity");
-    if (!value) return;
-    if (const auto index = read_choice(*value, fidelity_names(), problems_))
-      grammar_.fidelity = filled_by_fidelity(*index, value->place);
+    const auto fill = [&](const Value& value) {
+      if (const auto index = read_choice(value, fidelity_names(), problems_))
+        grammar_.fidelity = filled_by_fidelity(*index, value.place);
+    };
+    if (const Value* value = member("fidelity")) fill(*value);
+    if (!options_.fidelity.empty()) fill(string_value(options_.fidelity, root_place("--fidelity")));
   }
 
   void read_command_line() {

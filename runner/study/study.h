@@ -77,6 +77,8 @@ struct Options {
   std::optional<std::int64_t> packings = {};
   /// The values of the study's edge to have, by combination; empty: the two ends in each.
   std::vector<std::vector<double>> probes = {};
+  /// --fidelity LEVEL, in place of the study's; variants with a level of their own keep it. "": the study's.
+  std::string fidelity = {};
 };
 
 inline constexpr std::int64_t kMostCases = 10'000;

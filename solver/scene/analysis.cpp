@@ -1,22 +1,16 @@
 #include "solver/scene/analysis.h"
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include "solver/scene/checks.h"
 #include "solver/scene/predictions.h"
+#include "solver/scene/rounded.h"
 
 namespace seapile::scene {
 namespace {
 
 using basin::SurfaceSpec;
-
-/// Three digits say enough of a scale.
-std::string rounded(double number) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 3).ptr};
-}
 
 Decision plain(const char* name, bool built, std::string reason) { return {name, built, std::move(reason)}; }
 

@@ -33,7 +33,8 @@ const std::vector<Room> kRooms = {
      {"solver/base/", "solver/basin/", "solver/coupling/", "solver/fluid/", "solver/grains/", "solver/mesh/",
       "solver/pile/", "solver/scene/"}},
 
-    {"runner/study/", {"solver/base/", "solver/scene/", "*_spec.h", "solver/simulation/array.h"}},
+    {"runner/study/",
+     {"solver/base/", "solver/scene/", "*_spec.h", "solver/grains/neighbours.h", "solver/simulation/array.h"}},
     {"runner/store/",
      {"solver/base/", "solver/scene/", "solver/simulation/array.h", "solver/simulation/execution.h",
       "solver/simulation/flow_frame.h", "solver/simulation/flow_record.h", "solver/simulation/frame.h",

@@ -1,6 +1,7 @@
 // A scene mirrored in x moves as the mirrored scene: to the last bit, as signs round nothing and the order of contacts
 // follows the grains' numbers and gaps, which a mirror leaves alone. Where a mirror swaps things that have an order,
-// the left wall and the right one, only the statistics are the same (ACollapsePrefersNoSide).
+// the left wall and the right one, only the statistics are the same (ACollapsePrefersNoSide). A scene that stands far
+// away moves as the near one, but for the rounding of its places.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -95,8 +96,41 @@ std::vector<Row> mirror(const Solver& solver, Size) {
   return rows;
 }
 
+constexpr double kAway = 1 << 20;  // [m]: a place there is rounded to 1.2e-10 m
+
+Setup far(Setup setup) {
+  for (grains::Disc& d : setup.discs) d.x += kAway;
+  setup.box.left += kAway, setup.box.right += kAway;
+  if (!setup.body) return setup;
+  setup.body->position.x += kAway;
+  return setup;
+}
+
+/// Largest difference of places [m], of a scene and the same scene far away.
+double drift(const Solver& solver, const Setup& setup, int steps) {
+  const auto near = solver.start(setup), away = solver.start(far(setup));
+  double largest = 0;
+  for (int k = 0; k < steps; ++k) {
+    near->step();
+    away->step();
+    for (int i = 0; i < near->count(); ++i)
+      largest = std::max(
+          {largest, std::abs(away->disc(i).x - kAway - near->disc(i).x), std::abs(away->disc(i).y - near->disc(i).y)});
+  }
+  return largest;
+}
+
+std::vector<Row> translation(const Solver& solver, Size) {
+  return {{"difference from the near scene", "m", "two discs that meet", drift(solver, pair(), 400), 0, 1e-6,
+           "a place's rounding over a sub-step's way, of all that follows"},
+          {"difference from the near scene", "m", "a disc that slides down a slope", drift(solver, slope(), 800), 0,
+           1e-5, "likewise; that bit may close its contact a sub-step late"}};
+}
+
 }  // namespace
 
-std::vector<Law> symmetry_laws() { return {{"AMirroredSceneMovesAsTheMirrorImage", mirror}}; }
+std::vector<Law> symmetry_laws() {
+  return {{"AMirroredSceneMovesAsTheMirrorImage", mirror}, {"AFarSceneMovesAsANearOne", translation}};
+}
 
 }  // namespace seapile::verification

@@ -129,5 +129,23 @@ TEST_F(CommandLine, SeedsAreAWholeNumberOfCases) {
   }
 }
 
+TEST_F(CommandLine, ALevelOfFidelityTakesThePlaceOfTheStudys) {
+  const auto substeps = [&](const std::string& members, const std::string& level) {
+    Options options;
+    options.fidelity = level;
+    std::vector<std::int64_t> all;
+    for (const Case& one : study(members, options).cases) all.push_back(one.scene.contact.substeps);
+    return all;
+  };
+  EXPECT_EQ(substeps(R"("base": {"pile": {}}, "fidelity": "reference")", "draft"), std::vector<std::int64_t>{5});
+  EXPECT_EQ(substeps(R"("base": {"pile": {}})", "reference"), std::vector<std::int64_t>{20});
+  const std::string variants =
+      R"("base": {"pile": {}}, "variants": [{"name": "a", "fidelity": "reference"}, {"name": "b"}])";
+  EXPECT_EQ(substeps(variants, "draft"), (std::vector<std::int64_t>{20, 5})) << "a variant's own level stays";
+  Options wrong;
+  wrong.fidelity = "drafd";
+  EXPECT_THAT(problem(wrong), testing::AllOf(HasSubstr("--fidelity: "), HasSubstr("did you mean \"draft\"")));
+}
+
 }  // namespace
 }  // namespace seapile::study

@@ -75,6 +75,13 @@ TEST_F(GrainFileTest, GrainsLieInTheBox) {
   }
 }
 
+TEST_F(GrainFileTest, GrainsAtOnePlaceOrTooDeepInOneAnotherAreRefused) {
+  EXPECT_EQ(bad("id,x,y,radius\n7,0,0.1,0.01\n8,0.3,0.1,0.01\n5,0,0.1,0.02\n"),
+            "f: line 4: the grain overlaps that of line 2 by 3 radii of the smaller; allowed: at most 0.5\n");
+  EXPECT_THAT(bad("id,x,y,radius\n7,0,0.1,0.01\n8,0.014,0.1,0.01\n"), HasSubstr("by 0.6 radii of the smaller"));
+  EXPECT_EQ(good("id,x,y,radius\n7,0,0.1,0.01\n8,0.016,0.1,0.01\n").size(), 2u);
+}
+
 TEST_F(GrainFileTest, AGrainMayPressIntoAWallAsASettledOneDoes) {
   EXPECT_EQ(good("id,x,y,radius\n1,0,0.0098,0.01\n2,-2.4902,1,0.01\n").size(), 2u);
 }
