@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runner/execute/campaign.h"
 #include "runner/store/finished.h"
 #include "runner/study/nearest.h"
 
@@ -34,10 +35,13 @@ std::string broken(const study::Study& study, const store::FinishedCase& run) {
 present::EdgeProbe probe_of(const study::Study& study, const study::Case& one, const std::filesystem::path& root) {
   present::EdgeProbe probe;
   probe.value = one.probe.value();
+  const auto folder = store::newest_run(root, one.id);
+  // What older numerics came to says nothing of today's.
+  if (folder.empty() || !execute::are_of_today(store::read_manifest(folder).header.numerics, one.scene)) return probe;
   if (const auto run = store::read_finished(root, one.id, false)) {
     probe.finished = true;
     probe.tripped = broken(study, *run);
-  } else if (const auto folder = store::newest_run(root, one.id); !folder.empty()) {
+  } else {
     const auto result = store::read_manifest(folder).result;
     probe.finished = result.outcome == simulation::Outcome::diverged;
     if (probe.finished) probe.tripped = result.reason;

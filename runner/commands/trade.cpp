@@ -16,6 +16,7 @@ struct TradeArguments {
   std::string study, root = "results", out, of;
   study::Options options;
   present::Format format = present::Format::table;
+  bool freeze = false;
 };
 
 /// Index of the metric that is drawn.
@@ -34,7 +35,13 @@ int trade(const TradeArguments& arguments) {
     throw UsageError(arguments.study + ": has neither \"frontier\" nor \"ablate\": there is nothing to compare");
   const std::size_t metric = drawn_metric(arguments, *study.trade);
   const bool ablation = study.trade->kind == study::TradeKind::ablation;
-  const auto groups = traded(study, arguments.root);
+  if (arguments.freeze) {
+    fmt::print("{}\n", freeze(study, arguments.root).string());
+    return execute::kDone;
+  }
+  const Traded all = traded(study, arguments.root);
+  const auto& groups = all.groups;
+  for (const std::string& remark : all.remarks) fmt::print(stderr, "{}\n", remark);
   if (arguments.format == present::Format::table) {
     fmt::print("{}", present::trade_text(groups, ablation));
   } else {
@@ -69,6 +76,8 @@ void add_trade(CLI::App& app, Call& call) {
   add_study_options(*command, arguments.options);
   command->add_option("--of", arguments.of, "Metric that is drawn; default: the study's first")->type_name("METRIC");
   command->add_option("-o,--out", arguments.out, "Work-precision diagram to draw as well")->type_name("FILE.svg");
+  command->add_flag("--freeze", arguments.freeze,
+                    "Write the reference's runs to frozen/ beside the study; from then on they stand for it");
   add_format_option(*command, arguments.format);
   add_store_option(*command, arguments.root);
   command->footer(

@@ -6,19 +6,51 @@
 #include <cmath>
 #include <set>
 
+#include "runner/commands/checked.h"
+#include "runner/commands/command.h"
 #include "runner/present/replicates.h"
+#include "runner/present/trade_table.h"
+#include "runner/store/durable.h"
 #include "runner/store/finished.h"
+#include "runner/study/frozen_file.h"
 #include "runner/study/nearest.h"
 
 namespace seapile::commands {
 namespace {
 
-/// The number, or those of a curve, that a run has under the name; a bin that a run does not reach is left out.
-std::vector<double> values_of(const store::FinishedCase& run, const std::string& asked) {
-  std::vector<double> values;
+using Named = std::vector<std::pair<std::string, double>>;
+
+/// A bin that a run does not reach is left out.
+Named finite_metrics(const store::FinishedCase& run) {
+  Named metrics;
   for (const std::string& name : run.metric_names())
-    if (store::means(asked, name) && std::isfinite(run.metric(name)->value)) values.push_back(run.metric(name)->value);
+    if (const double value = run.metric(name)->value; std::isfinite(value)) metrics.emplace_back(name, value);
+  return metrics;
+}
+
+/// The number, or those of a curve, under each name asked for.
+std::vector<std::vector<double>> values_of(const Named& metrics, const std::vector<std::string>& asked) {
+  std::vector<std::vector<double>> values(asked.size());
+  for (std::size_t m = 0; m < asked.size(); ++m)
+    for (const auto& [name, value] : metrics)
+      if (store::means(asked[m], name)) values[m].push_back(value);
   return values;
+}
+
+double steps_of(const store::FinishedCase& run) {
+  const simulation::Metric* steps = run.metric("steps");
+  return steps ? steps->value : 0;
+}
+
+std::string hash_of(const store::FinishedCase& run) { return fmt::format("{:016x}", run.manifest.result.state_hash); }
+
+present::VariantRun run_of(const store::FinishedCase& run, const std::vector<std::string>& asked) {
+  const store::Provenance& made = run.manifest.provenance;
+  return {"", values_of(finite_metrics(run), asked), "", made.cpu_seconds, made.peak_memory_mb, steps_of(run)};
+}
+
+present::VariantRun run_of(const study::FrozenRun& run, const std::vector<std::string>& asked) {
+  return {"", values_of(run.metrics, asked), "", run.cpu_seconds, run.peak_memory_mb, run.steps};
 }
 
 /// Why there is no result, as briefly as that many runs can share it.
@@ -31,10 +63,15 @@ std::string failure_of(const std::filesystem::path& root, const std::string& cas
 
 }  // namespace
 
-std::vector<present::TradedGroup> traded(const study::Study& study, const std::filesystem::path& root) {
-  std::vector<present::TradedGroup> groups;
+namespace {
+
+/// With a frozen reference, or with the store's where it is null.
+Traded traded(const study::Study& study, const std::filesystem::path& root, const study::Frozen* frozen) {
+  Traded all;
+  std::vector<present::TradedGroup>& groups = all.groups;
+  const std::vector<std::string>& asked = study.trade->metrics;
   std::set<std::string> known;
-  std::size_t finished = 0;
+  std::size_t finished = 0, others = 0;
   for (const study::Case& one : study.cases) {
     present::Labels labels = one.labels;
     std::string variant, seed;
@@ -46,25 +83,40 @@ std::vector<present::TradedGroup> traded(const study::Study& study, const std::f
                   [](const auto& label) { return label.first == study::kVariant || label.first == present::kSeed; });
     auto group = std::ranges::find(groups, labels, &present::TradedGroup::labels);
     if (group == groups.end())
-      group = groups.insert(groups.end(), {labels, study.trade->metrics, study.trade->against, {}});
+      group = groups.insert(
+          groups.end(),
+          {labels, asked, study.trade->against, study.trade->coarser, {}, !one.scene.jet && !one.scene.basin});
     auto found = std::ranges::find(group->variants, variant, &present::TradedVariant::name);
     if (found == group->variants.end()) found = group->variants.insert(group->variants.end(), {variant, {}});
 
     present::VariantRun run;
-    run.packing = seed;
-    run.value.resize(study.trade->metrics.size());
-    if (const auto result = store::read_finished(root, one.id, true)) {
+    const auto result = store::read_finished(root, one.id, true);
+    const study::FrozenRun* kept =
+        frozen && variant == study.trade->against ? study::find_frozen(*frozen, one.id) : nullptr;
+    if (result) {
       ++finished;
       for (const std::string& name : result->metric_names()) known.insert(name);
-      for (std::size_t m = 0; m < run.value.size(); ++m) run.value[m] = values_of(*result, study.trade->metrics[m]);
-      run.cpu_seconds = result->manifest.provenance.cpu_seconds;
-      run.peak_memory_mb = result->manifest.provenance.peak_memory_mb;
-      if (const simulation::Metric* steps = result->metric("steps")) run.steps = steps->value;
+    }
+    if (kept) {
+      run = run_of(*kept, asked);
+      if (result && hash_of(*result) != kept->state_hash) ++others;
+    } else if (result) {
+      run = run_of(*result, asked);
     } else {
+      run.value.resize(asked.size());
       run.failure = failure_of(root, one.id);
     }
+    run.packing = seed;
     found->runs.push_back(std::move(run));
   }
+  if (frozen)
+    all.remarks.push_back(fmt::format("reference: frozen, {} runs, made with {}; own error: {}", frozen->runs.size(),
+                                      frozen->made_with, frozen->own_error));
+  if (others > 0)
+    all.remarks.push_back(
+        fmt::format("{} of the reference's runs here end in another state than the frozen ones: other "
+                    "numerics or another machine",
+                    others));
   base::Problems problems;
   for (const std::string& metric : study.trade->metrics) {
     if (finished == 0 || std::ranges::any_of(known, [&](const auto& name) { return store::means(metric, name); }))
@@ -74,7 +126,44 @@ std::vector<present::TradedGroup> traded(const study::Study& study, const std::f
                         "a metric that `runner show` lists", study::nearest(metric, {known.begin(), known.end()})});
   }
   if (!problems.empty()) throw study::BadInput(study.file.string(), std::move(problems));
-  return groups;
+  return all;
+}
+
+}  // namespace
+
+Traded traded(const study::Study& study, const std::filesystem::path& root) {
+  const auto frozen = study::read_frozen(study::frozen_path(study.file, study.name));
+  return traded(study, root, frozen ? &*frozen : nullptr);
+}
+
+std::filesystem::path freeze(const study::Study& study, const std::filesystem::path& root) {
+  if (study.trade->against.empty())
+    throw UsageError("--freeze: the study compares with exact values, not with a variant");
+  study::Frozen frozen{study.trade->against, "", "", {}};
+  for (const study::Case& one : study.cases) {
+    const auto is_reference = [&](const auto& label) {
+      return label.first == study::kVariant && label.second == frozen.variant;
+    };
+    if (std::ranges::none_of(one.labels, is_reference)) continue;
+    const auto result = store::read_finished(root, one.id, true);
+    if (!result) throw UsageError(fmt::format("--freeze: case {} of the reference is not completed", one.id));
+    const store::Provenance& made = result->manifest.provenance;
+    if (frozen.made_with.empty())
+      frozen.made_with =
+          fmt::format("{}, {}, {}, commit {}{}, {}", made.compiler, made.flags, made.host_cpu, made.commit,
+                      made.dirty ? " with changes" : "", numerics_text(result->manifest.header));
+    study::FrozenRun run{
+        one.id, result->manifest.seal, hash_of(*result), made.cpu_seconds, made.peak_memory_mb, steps_of(*result), {}};
+    for (const auto& [name, value] : finite_metrics(*result))
+      if (std::ranges::any_of(study.trade->metrics, [&](const auto& asked) { return store::means(asked, name); }))
+        run.metrics.emplace_back(name, value);
+    frozen.runs.push_back(std::move(run));
+  }
+  frozen.own_error = present::own_error(traded(study, root, nullptr).groups);
+  const std::filesystem::path file = study::frozen_path(study.file, study.name);
+  store::make_folder(file.parent_path());
+  store::write_text(file, study::frozen_text(study.name, frozen));
+  return file;
 }
 
 }  // namespace seapile::commands

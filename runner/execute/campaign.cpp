@@ -25,6 +25,13 @@ store::StudyEntry entry_of(const study::Study& study) {
   return entry;
 }
 
+bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene) {
+  const std::vector<simulation::NumericsVersion> today = simulation::numerics_versions(scene);
+  return std::ranges::is_permutation(versions, today, [](const auto& one, const auto& other) {
+    return one.module == other.module && one.version == other.version;
+  });
+}
+
 Campaign::Campaign(const study::Study& study, CampaignOptions options)
     : study_(study), options_(std::move(options)), numerics_(simulation::numerics_versions) {
   options_.sharing.cores = usable_cores();

@@ -32,6 +32,9 @@ struct CaseOutcome {
 /// What the catalogue knows of a study.
 store::StudyEntry entry_of(const study::Study& study);
 
+/// Whether versions are today's of a scene.
+bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene);
+
 class Campaign {
  public:
   /// Plans; writes nothing. `study` must outlive it.

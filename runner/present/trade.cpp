@@ -134,6 +134,15 @@ void cost_of(TradeLevel& level, const TradedVariant& variant, const TradedVarian
   level.cost = median(ratios);
 }
 
+/// The reference is off as well, by what separates it from the coarser variant at most.
+void add_own_error(std::vector<TradeLevel>& levels, const std::string& coarser) {
+  const auto found = std::ranges::find(levels, coarser, &TradeLevel::name);
+  if (found == levels.end()) return;
+  const std::vector<TradeError> own = found->errors;
+  for (TradeLevel& level : levels)
+    for (std::size_t m = 0; m < level.errors.size(); ++m) level.errors[m].bound += std::abs(own[m].error.mean);
+}
+
 }  // namespace
 
 double sign_flip_chance(const std::vector<std::vector<double>>& pairs) {
@@ -156,8 +165,9 @@ std::vector<TradeLevel> judge(const TradedGroup& group) {
     level.on_frontier.assign(group.metrics.size(), false);
     if (&variant == against) continue;
     for (std::size_t m = 0; m < group.metrics.size(); ++m)
-      level.errors[m] = error_of(differences(variant, against, m), group.against.empty());
+      level.errors[m] = error_of(differences(variant, against, m), group.against.empty() || !group.by_chance);
   }
+  if (!group.by_chance) add_own_error(levels, group.coarser);
   for (std::size_t m = 0; m < group.metrics.size(); ++m) {
     const auto size = [&](const TradeLevel& level) { return std::abs(level.errors[m].error.mean); };
     for (TradeLevel& level : levels) {

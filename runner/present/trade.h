@@ -6,6 +6,9 @@
 // packings' chance is tested by the signs: under "no difference" each packing's d_s is as likely as -d_s, so of all 2^n
 // choices of signs the share whose E is at least as large is the probability of what was seen. Exact, without a
 // distribution assumed.
+//
+// Water has no packings: the difference of two runs is the error, and its bound adds what separates the reference from
+// a coarser variant, as far as that is known.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +41,9 @@ struct TradedGroup {
   Labels labels;                     ///< of the axes beside
   std::vector<std::string> metrics;  ///< as asked for: "a*" is a curve
   std::string against;               ///< name of the variant; "": the metrics are errors already
+  std::string coarser;               ///< what separates it from `against` is that one's own error at most; "": unknown
   std::vector<TradedVariant> variants;
+  bool by_chance = true;  ///< runs scatter as packings do; otherwise one run of a variant is its answer
 };
 
 /// How far a variant is in one metric.
@@ -47,7 +52,7 @@ struct TradeError {
   /// Relative difference, signed, with its 95 % interval; of a curve its norm, and an interval from what chance adds:
   /// [max(0, E - q), E + q], q the 95 % quantile of the norm that the scatter of the pairs gives.
   Interval error;
-  /// 95 % bound of its size: the larger end of the interval; NaN without an interval, but of the exact case.
+  /// 95 % bound of its size: the larger end of the interval; NaN without an interval, but where there is no chance.
   double bound = std::numeric_limits<double>::quiet_NaN();
   double chance = std::numeric_limits<double>::quiet_NaN();  ///< of as much without any difference [-]
 };

@@ -84,7 +84,7 @@ Grouped table_of(const std::vector<TradedGroup>& groups, const Judged& judged, b
         const TradeError& error = level.errors[m];
         for (const double value : {error.error.mean, error.error.low, error.error.high, error.bound})
           cells.push_back(number(kPercent * value));
-        cells.push_back(number(error.chance));
+        cells.push_back(number(error.n >= kLeastPairs ? error.chance : std::nan("")));
         if (!ablation) cells.push_back(number(level.on_frontier[m] ? 1 : 0));
       }
       Cell failure;
@@ -123,9 +123,31 @@ std::string trade_text(const std::vector<TradedGroup>& groups, bool ablation) {
       }
     }
   }
+  if (!groups.front().coarser.empty()) lines += "the reference's own error: " + own_error(groups) + "\n";
   if (!ablation) lines += "frontier: 1 where nothing that was measured is both cheaper and closer\n";
   lines += "bound: of the error's size, 95 %; cost: CPU time over that of the same packing's ";
   return lines + (groups.front().against.empty() ? "(none)\n" : "\"" + groups.front().against + "\"\n");
+}
+
+std::string own_error(const std::vector<TradedGroup>& groups) {
+  const std::string& coarser = groups.front().coarser;
+  if (coarser.empty()) return "unknown: the study names no coarser variant";
+  std::vector<double> bounds(groups.front().metrics.size(), 0);
+  for (const TradedGroup& group : groups)
+    for (const TradeLevel& level : judge(group)) {
+      if (level.name != coarser) continue;
+      for (std::size_t m = 0; m < bounds.size(); ++m) {
+        const double bound = level.errors[m].bound;
+        if (!(bound <= bounds[m])) bounds[m] = bound;  // also when it is none
+      }
+    }
+  std::string text;
+  for (std::size_t m = 0; m < bounds.size(); ++m) {
+    if (m > 0) text += ", ";
+    text += groups.front().metrics[m];
+    text += std::isnan(bounds[m]) ? " unknown" : fmt::format(" at most {:.2g} %", kPercent * bounds[m]);
+  }
+  return fmt::format("{} (95 %), by what separates it from \"{}\"", text, coarser);
 }
 
 }  // namespace seapile::present

@@ -18,4 +18,7 @@ Grouped trade_table(const std::vector<TradedGroup>& groups, bool ablation);
 /// The same for people: what is not told from chance says so, in whole lines below, as do failures.
 std::string trade_text(const std::vector<TradedGroup>& groups, bool ablation);
 
+/// What the reference may be off by itself: its distance to the coarser variant, in one line.
+std::string own_error(const std::vector<TradedGroup>& groups);
+
 }  // namespace seapile::present

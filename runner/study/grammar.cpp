@@ -221,6 +221,9 @@ class Reader {
   /// The packings that the rule has come to so far.
   void read_rule(const Value& replicates) {
     const auto rule = read_packing_rule(replicates, problems_);
+    if (rule && grammar_.edge)
+      report(replicates.find("at_least")->place, "stands beside edge, whose packings are not asked for by results",
+             R"({"seed": [1, 2, 3]} or {"seeds": 3})");
     if (!rule || options_.seeds) return;
     const std::int64_t count = std::clamp(options_.packings.value_or(rule->at_least), rule->at_least, rule->at_most);
     add_seeds(count, replicates.find("at_least")->place);

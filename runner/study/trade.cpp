@@ -53,15 +53,22 @@ std::optional<Trade> read_trade(const Value& document, const std::vector<std::st
 
   Trade trade;
   trade.kind = frontier ? TradeKind::frontier : TradeKind::ablation;
-  report_unknown_keys(*written, {words.against, "of"}, problems);
-  if (const Value* against = written->find(words.against)) {
-    read_string(*against, trade.against, problems);
-    if (against->kind == Value::Kind::string && !variants.empty() &&
-        std::ranges::find(variants, trade.against) == variants.end())
-      report(against->place, fmt::format("\"{}\" is no variant", trade.against), "the name of a variant",
-             nearest(trade.against, variants));
-  } else if (!frontier) {
+  const auto read_variant = [&](const Value& value, std::string& name) {
+    read_string(value, name, problems);
+    if (value.kind == Value::Kind::string && !variants.empty() && std::ranges::find(variants, name) == variants.end())
+      report(value.place, fmt::format("\"{}\" is no variant", name), "the name of a variant", nearest(name, variants));
+  };
+  std::vector<std::string> keys{words.against, "of"};
+  if (frontier) keys.emplace_back("coarser");
+  report_unknown_keys(*written, keys, problems);
+  if (const Value* against = written->find(words.against))
+    read_variant(*against, trade.against);
+  else if (!frontier)
     report(written->place, "lacks \"whole\"", words.form);
+  if (const Value* coarser = frontier ? written->find("coarser") : nullptr) {
+    read_variant(*coarser, trade.coarser);
+    if (trade.against.empty() || trade.coarser == trade.against)
+      report(coarser->place, "is no other variant than the reference", "beside \"reference\", another variant");
   }
   const Value* of = written->find("of");
   if (!of) {

@@ -19,6 +19,9 @@ struct Trade {
   TradeKind kind = TradeKind::frontier;
   /// The variant that the others are compared with; "": none, the metrics are errors by themselves.
   std::string against;
+  /// Of a frontier: the variant with steps twice as long as the reference's; what separates the two is the reference's
+  /// own error at most. "": nothing is said of it.
+  std::string coarser;
   std::vector<std::string> metrics;  ///< with a "*" at its end all that begin like this, as one curve
 };
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "runner/study/frozen_file.h"
 #include "tests/runner/commands/program.h"
 
 namespace seapile::commands {
@@ -9,6 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 /// A wave by four steps, of which one is too long for the thesis' surface.
@@ -64,6 +66,40 @@ TEST_F(TradeCommand, AnAblationTellsChanges) {
   const Finished table = place->run({"trade", "without.json"});
   ASSERT_EQ(table.exit_code, 0) << table.error;
   EXPECT_THAT(table.out, HasSubstr("change:highest"));
+}
+
+/// A study of its own, so that the others have no frozen reference.
+TEST_F(TradeCommand, AFrozenReferenceStandsForTheRunsAndIsNotChangedByHand) {
+  place->write("kept.json", waves(R"(, "frontier": {"reference": "fine", "coarser": "long", "of": ["highest"]})"));
+  const std::string measured = place->run({"trade", "kept.json", "--format", "csv"}).out;
+  const Finished frozen = place->run({"trade", "kept.json", "--freeze"});
+  ASSERT_EQ(frozen.exit_code, 0) << frozen.error;
+  EXPECT_THAT(frozen.out, HasSubstr("frozen/waves.csv"));
+  const fs::path file = place->folder() / "frozen" / "waves.csv";
+  const std::string text = content(file);
+  EXPECT_THAT(text, HasSubstr("# own error: highest "));
+  EXPECT_THAT(text, HasSubstr("by what separates it from \"long\""));
+
+  const Finished again = place->run({"trade", "kept.json", "--format", "csv"});
+  EXPECT_EQ(again.out, measured);
+  EXPECT_THAT(again.error, HasSubstr("reference: frozen, 1 runs"));
+  EXPECT_THAT(again.error, Not(HasSubstr("another state")));
+  const Finished elsewhere = place->run({"trade", "kept.json", "--store", "empty"});
+  EXPECT_EQ(elsewhere.exit_code, 4) << "the other variants were never run";
+  EXPECT_THAT(elsewhere.out, Not(HasSubstr("fine: 1 of 1 runs have no result")));
+  EXPECT_THAT(elsewhere.out, HasSubstr("long: 1 of 1 runs have no result"));
+
+  study::Frozen moved = *study::read_frozen(file);
+  moved.runs[0].state_hash = "0123456789abcdef";
+  place->write("frozen/waves.csv", study::frozen_text("waves", moved));
+  EXPECT_THAT(place->run({"trade", "kept.json"}).error,
+              HasSubstr("1 of the reference's runs here end in another state"));
+
+  place->write("frozen/waves.csv", text + "\n");
+  const Finished changed = place->run({"trade", "kept.json"});
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_THAT(changed.error, HasSubstr("was changed since it was frozen"));
+  fs::remove(file);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "runner/execute/campaign.h"
 #include "tests/runner/execute/fake_study.h"
 
 namespace seapile::execute {
@@ -273,6 +274,20 @@ TEST_F(PlanTest, TheDescriptionNamesCasesOrCountsThem) {
   for (int i = 0; i < 50; ++i) many.emplace_back(std::to_string(i), "bed");
   study = fake::make_study(many);
   EXPECT_THAT(describe(plan()), ElementsAre(HasSubstr("51 cases: never run")));
+}
+
+// What an edge was found with must be today's as well; a run that diverged is none that would be done again.
+TEST(Today, VersionsAreAllThoseOfTheScene) {
+  scene::SceneSpec scene;
+  scene.pile.emplace();
+  std::vector<simulation::NumericsVersion> versions = simulation::numerics_versions(scene);
+  EXPECT_TRUE(are_of_today(versions, scene));
+  std::ranges::reverse(versions);
+  EXPECT_TRUE(are_of_today(versions, scene));
+  --versions.back().version;
+  EXPECT_FALSE(are_of_today(versions, scene));
+  versions.pop_back();
+  EXPECT_FALSE(are_of_today(versions, scene));
 }
 
 }  // namespace
