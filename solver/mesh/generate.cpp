@@ -40,7 +40,7 @@ std::string packed(const Try& given) {
   for_each_array(given, [&](const auto& array) {
     const std::size_t count = array.size();
     bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-    bytes.append(reinterpret_cast<const char*>(array.data()), count * sizeof array[0]);
+    if (count > 0) bytes.append(reinterpret_cast<const char*>(array.data()), count * sizeof array[0]);
   });
   return bytes;
 }

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "solver/base/crew.h"
 #include "solver/mesh/basin_mesh.h"
 #include "solver/mesh/generate.h"
 #include "tests/solver/mesh/children.h"
@@ -100,6 +103,18 @@ TEST_F(FailingGmsh, AMeshIsMadeByOneChild) {
   Children children;
   generate(kSquare, [&](base::Vec2) { return 0.2 + 0 * children.number(); });
   EXPECT_EQ(children.count(), 1);
+}
+
+// Its threads are not in the child, and wait for their next job meanwhile.
+TEST_F(FailingGmsh, AMeshIsMadeBesideACrew) {
+  const TriangleMesh alone = generate(kSquare, even);
+  base::Crew crew(3);
+  std::atomic<int> work = 0;
+  for (int i = 0; i < 3; ++i) {
+    crew.run([&](int, int) { ++work; });
+    EXPECT_EQ(generate(kSquare, even).position, alone.position);
+  }
+  EXPECT_GE(work, 3);
 }
 
 // Of the many ways to mesh it each would be waited for.

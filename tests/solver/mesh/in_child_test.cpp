@@ -7,8 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "tests/solver/mesh/children.h"
@@ -103,6 +105,19 @@ TEST_F(InChild, NoDescriptorOfTheParentIsOpenInTheChild) {
   ::close(high);
 }
 
+// What the parent does at its end would be done twice, with the parent's files and its store.
+TEST_F(InChild, ItDoesNothingOfWhatTheParentDoesAtItsEnd) {
+  static std::atomic<int>* at_exit = nullptr;
+  const Shared count;
+  at_exit = &*count;
+  std::atexit([] {
+    if (at_exit) ++*at_exit;
+  });
+  in_child([] { return std::string(); }, kForever);
+  EXPECT_EQ(*count, 0);
+  at_exit = nullptr;
+}
+
 TEST_F(InChild, WhatItPrintsGoesNowhere) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -142,7 +157,7 @@ TEST_F(InChild, AChildEndsWithItsParent) {
   EXPECT_EQ(::waitpid(between, nullptr, 0), between);
   int status = 0;
   pid_t ended = 0;
-  for (int look = 0; look < 6000 && ended == 0; ++look) {
+  for (int look = 0; look < 2000 && ended == 0; ++look) {
     ended = ::waitpid(*hanging, &status, WNOHANG);
     ::usleep(10'000);
   }
