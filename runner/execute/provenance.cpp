@@ -30,9 +30,10 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-rusage usage() {
+/// `who`: RUSAGE_SELF, or RUSAGE_CHILDREN for those that have ended, in which meshes are made.
+rusage usage(int who) {
   rusage used = {};
-  ::getrusage(RUSAGE_SELF, &used);
+  ::getrusage(who, &used);
   return used;
 }
 
@@ -57,12 +58,18 @@ std::string version_line() {
 }
 
 Cost cost_so_far() {
-  const rusage used = usage();
+  double cpu = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    const rusage used = usage(who);
+    cpu += seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - process_start;
-  return {seconds(used.ru_utime) + seconds(used.ru_stime), wall.count()};
+  return {cpu, wall.count()};
 }
 
-double peak_memory_mb() { return static_cast<double>(usage().ru_maxrss) / 1024; }
+double peak_memory_mb() {
+  return static_cast<double>(std::max(usage(RUSAGE_SELF).ru_maxrss, usage(RUSAGE_CHILDREN).ru_maxrss)) / 1024;
+}
 
 int usable_cores() {
   cpu_set_t allowed;

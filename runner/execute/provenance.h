@@ -18,10 +18,10 @@ struct Cost {
   double wall_seconds = 0;
 };
 
-/// What this process has used since it started.
+/// What this process and its children have used since it started.
 Cost cost_so_far();
 
-/// Largest resident memory of this process so far [MB].
+/// Largest resident memory of this process, or of a child of its, so far [MB].
 double peak_memory_mb();
 
 /// Cores that this process may use.

@@ -72,20 +72,22 @@ TriangleMesh mirrored(const TriangleMesh& half) {
 
 }  // namespace
 
-TriangleMesh basin_mesh(const BasinOutline& outline, const std::function<double(base::Vec2)>& size,
-                        double least_shape) {
+TriangleMesh basin_mesh(const BasinOutline& outline, const std::function<double(base::Vec2)>& size, double least_shape,
+                        double patience) {
   const std::vector<Corner> corners = half_of(outline);
   std::string why;
   double best = 0;
   for (const double factor : {1.0, 0.95, 1.05, 0.9, 1.1, 0.85, 0.8, 0.7, 0.6})
     for (const int algorithm : {6, 5}) try {
-        const TriangleMesh half =
-            generate(corners, [&](base::Vec2 p) { return fitting(corners, p, factor * size(p)); }, {algorithm, 10});
+        const TriangleMesh half = generate(corners, [&](base::Vec2 p) { return fitting(corners, p, factor * size(p)); },
+                                           {.algorithm = algorithm, .smoothing = 10, .patience = patience});
         best = std::max(best, summary_of(quality_of(half)).lowest_shape);
         if (best < least_shape) continue;
         TriangleMesh mesh = mirrored(half);
         check(mesh);
         return mesh;
+      } catch (const NoAnswer&) {  // the other ways may each take as long
+        throw;
       } catch (const NoMesh& error) {
         why = error.what();
       }

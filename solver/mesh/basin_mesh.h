@@ -32,9 +32,9 @@ struct BasinOutline {
 /// The mesh of the whole basin, with bottom y = 0. Edges of the top are exactly those between the given vertices; tip
 /// and walls are divided as `size` says (asked for x >= 0), which is made to fit narrow gaps and the top's edges. Every
 /// shape quality is at least `least_shape`: sizes and algorithm are varied, in a fixed order, until it is so. Throws
-/// NoMesh when no attempt does it, as where a sleeve is shorter than about 0.4 of the top's edge beside it, and
-/// std::logic_error when the outline is none.
+/// NoMesh when no attempt does it, as where a sleeve is shorter than about 0.4 of the top's edge beside it, NoAnswer at
+/// the first that Gmsh does not answer within `patience` [s], and std::logic_error when the outline is none.
 TriangleMesh basin_mesh(const BasinOutline& outline, const std::function<double(base::Vec2)>& size,
-                        double least_shape = 0.7);
+                        double least_shape = 0.7, double patience = Method{}.patience);
 
 }  // namespace seapile::mesh

@@ -21,6 +21,8 @@ struct Corner {
 struct Method {
   int algorithm = 6;  ///< 6: Frontal-Delaunay, repeatable, and better shaped than 5: Delaunay
   int smoothing = 5;  ///< passes
+  int seed = 1;       ///< of its random numbers; the second try has the next
+  double patience = 120;  ///< for one try, far more than any mesh takes [s]
 };
 
 /// Gmsh could not mesh a domain.
@@ -28,9 +30,16 @@ struct NoMesh : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Not within its time: whoever tries several ways need not wait for the others.
+struct NoAnswer : NoMesh {
+  using NoMesh::NoMesh;
+};
+
 /// Triangulates the polygon (counterclockwise, without holes) with edges of about size(x) [m]. The same polygon and
-/// sizes give the same mesh, bit for bit, on one installation of Gmsh. Not reentrant: Gmsh is one per process. Throws
-/// NoMesh with Gmsh's words when it cannot.
+/// sizes give the same mesh, bit for bit, on one installation of Gmsh. Gmsh runs in a child process (in_child.h), in
+/// which `size` is called too: what that leaves in memory is lost. Where Gmsh crashes, does not answer in time, gives
+/// no mesh or one that check() refuses, it is tried once more with another seed. Throws NoMesh that says what went
+/// wrong, NoAnswer when that was the time, and std::system_error when there is no child to be had.
 TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size,
                       const Method& method = {});
 

@@ -25,7 +25,7 @@ struct Session {
         {"Mesh.MeshSizeFromCurvature", 0},
         {"Mesh.Algorithm", method.algorithm},
         {"Mesh.Smoothing", method.smoothing},
-        {"Mesh.RandomSeed", 1}};
+        {"Mesh.RandomSeed", method.seed}};
     for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
     gmsh::model::add("domain");
   }

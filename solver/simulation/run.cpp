@@ -1,6 +1,8 @@
 #include "solver/simulation/run.h"
 
 #include <optional>
+#include <stdexcept>
+#include <system_error>
 
 #include "solver/simulation/build.h"
 #include "solver/simulation/drive.h"
@@ -28,6 +30,8 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   std::optional<Simulation> sim;
   try {
     sim = build(scene, bed, execution, state);
+  } catch (const std::system_error&) {  // the machine's trouble and not the scene's, such as no process for the mesher
+    throw;
   } catch (const std::runtime_error& error) {  // it does not settle under water, or has no mesh
     RunResult result;
     result.outcome = Outcome::diverged;
