@@ -85,7 +85,7 @@ Traded traded(const study::Study& study, const std::filesystem::path& root, cons
     if (group == groups.end())
       group = groups.insert(
           groups.end(),
-          {labels, asked, study.trade->against, study.trade->coarser, {}, !one.scene.jet && !one.scene.basin});
+          {labels, asked, study.trade->against, {}, study.trade->coarser, !one.scene.jet && !one.scene.basin});
     auto found = std::ranges::find(group->variants, variant, &present::TradedVariant::name);
     if (found == group->variants.end()) found = group->variants.insert(group->variants.end(), {variant, {}});
 

@@ -41,8 +41,9 @@ struct TradedGroup {
   Labels labels;                     ///< of the axes beside
   std::vector<std::string> metrics;  ///< as asked for: "a*" is a curve
   std::string against;               ///< name of the variant; "": the metrics are errors already
-  std::string coarser;               ///< what separates it from `against` is that one's own error at most; "": unknown
   std::vector<TradedVariant> variants;
+  /// Name of the variant whose distance from `against` is that one's own error at most; "": nothing is known of it.
+  std::string coarser = {};
   bool by_chance = true;  ///< runs scatter as packings do; otherwise one run of a variant is its answer
 };
 

@@ -23,7 +23,7 @@ VariantRun run(int packing, std::vector<std::vector<double>> value, double cpu) 
 TradedGroup group(double shift, double sd, int packings) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
-  TradedGroup group{{}, {"q", "bin_*"}, "reference", "", {{"reference", {}}, {"other", {}}}};
+  TradedGroup group{{}, {"q", "bin_*"}, "reference", {{"reference", {}}, {"other", {}}}};
   for (int s = 0; s < packings; ++s) {
     const double level = 10 + 3 * normal(random);  // of the packing: cancels
     group.variants[0].runs.push_back(run(s, {{level}, {level, 2 * level, 2 * level}}, 8));
@@ -119,9 +119,9 @@ TEST(Trade, ARunWithoutItsPairIsNotCompared) {
 // Where nothing is left to chance a single run has an error with a bound, and the reference's own is part of it.
 TEST(Trade, WaterIsCertainUpToTheReferencesOwnError) {
   const auto run = [](double value) { return VariantRun{"", {{value}}, "", 1, 1, 1}; };
-  TradedGroup water{
-      {},   {"chi"}, "finest", "coarser", {{"finest", {run(1)}}, {"coarser", {run(1.01)}}, {"other", {run(0.95)}}},
-      false};
+  TradedGroup water{{},        {"chi"},
+                    "finest",  {{"finest", {run(1)}}, {"coarser", {run(1.01)}}, {"other", {run(0.95)}}},
+                    "coarser", false};
   std::vector<TradeLevel> levels = judge(water);
   EXPECT_NEAR(levels[2].errors[0].error.mean, -0.05, 1e-15);
   EXPECT_NEAR(levels[2].errors[0].bound, 0.06, 1e-15);
