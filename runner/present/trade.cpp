@@ -169,7 +169,11 @@ std::vector<TradeLevel> judge(const TradedGroup& group) {
   }
   if (!group.by_chance) add_own_error(levels, group.coarser);
   for (std::size_t m = 0; m < group.metrics.size(); ++m) {
-    const auto size = [&](const TradeLevel& level) { return std::abs(level.errors[m].error.mean); };
+    // What is known of the error; a mean near 0 may be luck.
+    const auto size = [&](const TradeLevel& level) {
+      const TradeError& error = level.errors[m];
+      return std::isnan(error.bound) ? std::abs(error.error.mean) : error.bound;
+    };
     for (TradeLevel& level : levels) {
       if (std::isnan(size(level)) || level.completed < level.asked) continue;
       level.on_frontier[m] = std::ranges::none_of(levels, [&](const TradeLevel& other) {

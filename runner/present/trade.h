@@ -66,7 +66,7 @@ struct TradeLevel {
   double peak_memory_mb = 0, steps = 0;  ///< largest; median
   std::vector<TradeError> errors;        ///< by metric
   std::vector<std::string> failures;     ///< each kind once
-  std::vector<bool> on_frontier;         ///< by metric: nothing measured is cheaper and closer
+  std::vector<bool> on_frontier;         ///< by metric: nothing measured is cheaper and has a smaller bound
 };
 
 /// Judges all variants of a group, in their order; that with which they are compared has no errors.

@@ -70,7 +70,7 @@ std::string gnuplot_script(const std::string& title, const TradedGroup& group, s
   std::ranges::stable_sort(points, {}, &Point::cpu);
 
   const std::string note =
-      "Bars: 95 % intervals; joined: nothing measured is both cheaper and closer; dashed: half an "
+      "Bars: 95 % intervals; joined: nothing measured is both cheaper and closer (upper ends); dashed: half an "
       "interval, what packings cannot tell.";
   const Heading head = heading(title, note, kWidth, height, kCharacters);
 

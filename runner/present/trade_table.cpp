@@ -124,7 +124,7 @@ std::string trade_text(const std::vector<TradedGroup>& groups, bool ablation) {
     }
   }
   if (!groups.front().coarser.empty()) lines += "the reference's own error: " + own_error(groups) + "\n";
-  if (!ablation) lines += "frontier: 1 where nothing that was measured is both cheaper and closer\n";
+  if (!ablation) lines += "frontier: 1 where nothing that was measured is both cheaper and closer, by the bound\n";
   lines += "bound: of the error's size, 95 %; cost: CPU time over that of the same packing's ";
   return lines + (groups.front().against.empty() ? "(none)\n" : "\"" + groups.front().against + "\"\n");
 }
