@@ -59,6 +59,11 @@ Objection objection(const basin::Basin& basin) {
   return {};
 }
 
+Objection objection(const fluid::Jet& jet) {
+  if (!all_finite(jet.flow.unknown)) return {Cause::not_finite, "the flow is not finite"};
+  return fluid::objection(jet.surface);
+}
+
 Objection overlap_objection(const Simulation& sim, double overlap) {
   if (overlap <= bounds_of(sim.law).overlap) return {};
   return {Cause::overlap, "two bodies overlap by " + std::to_string(overlap) + " of the smaller radius"};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/basin/basin.h"
+#include "solver/fluid/jet.h"
 #include "solver/simulation/simulation.h"
 #include "solver/simulation/step.h"
 
@@ -14,6 +15,9 @@ Objection objection(const Simulation& simulation, const StepReport& report);
 
 /// Of a step of a basin: finite flow and surface, volume.
 Objection objection(const basin::Basin& basin);
+
+/// Of a step of a jet: finite flow, a surface above the axis that is a graph.
+Objection objection(const fluid::Jet& jet);
 
 /// Of a largest overlap [radii of the smaller].
 Objection overlap_objection(const Simulation& simulation, double overlap);
