@@ -28,6 +28,9 @@ struct EnergyLevel {
 };
 EnergyLevel energy_level(const Simulation& simulation);
 
+/// Every velocity and spin is finite.
+Objection motion_objection(const EnergyLevel& now);
+
 /// Of the end of a stretch that began with `before`: what is too costly for every step. Motion and spins are finite, no
 /// overlap is too large, and the grains have gained no energy that nothing has given them.
 Objection stretch_objection(const Simulation& simulation, const EnergyLevel& before);
