@@ -282,7 +282,8 @@ Basin filled(const BasinSpec& spec, base::InstructionSet instructions, mesh::Tri
   Domain domain = domain_of(spec, flow.mesh, top, tip);
   Basin basin = assembled(spec, instructions, std::move(flow), std::move(top), std::move(domain));
   for (std::size_t s = 0; s < basin.top.x.size(); ++s) basin.top.height[s] = initial_height(spec, basin.top.x[s]);
-  if (const std::string why = fluid::objection(basin.top); !why.empty()) throw mesh::NoMesh("at the start " + why);
+  if (const base::Objection found = fluid::objection(basin.top); !found.empty())
+    throw mesh::NoMesh("at the start " + found.why);
   place(basin, tip);
   if (mesh::first_inversion(basin.flow.mesh, basin.domain.reference, basin.flow.mesh.position))
     throw mesh::NoMesh("the surface at the start is too sharp for the mesh: triangles would turn over");

@@ -20,10 +20,6 @@ std::vector<base::Vec2> velocities(const std::vector<double>& unknown) {
   return v;
 }
 
-bool is_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
-}
-
 base::Clock after(base::Clock clock) {
   clock.advance();
   return clock;
@@ -53,8 +49,7 @@ class Way {
   }
 
   double tip() const { return tip_; }
-  const std::string& objection() const { return objection_; }
-  base::Cause cause() const { return cause_; }
+  const base::Objection& objection() const { return objection_; }
 
   /// The water on the pile moves with it.
   void move_pile() {
@@ -97,10 +92,7 @@ class Way {
   /// False when there is no valid mesh for surface and pile.
   bool move_mesh() {
     objection_ = fluid::objection(basin_.top);
-    if (!objection_.empty()) {
-      cause_ = is_finite(basin_.top.height) ? base::Cause::mesh : base::Cause::not_finite;
-      return false;
-    }
+    if (!objection_.empty()) return false;
     // Under a fixed top, beside a pile that stands, every vertex stays.
     if (!basin_.spec.surface && tip_ == basin_.past_tip.front()) {
       fluid::set_rates(basin_.flow, basin_.past, basin_.solver.order);
@@ -112,9 +104,9 @@ class Way {
     if (const auto inversion = mesh::first_inversion(mesh, from, mesh.position)) {
       const auto& t = mesh.triangle[inversion->triangle];
       const base::Vec2 where = (1.0 / 3) * (from[t[0]] + from[t[1]] + from[t[2]]);
-      cause_ = base::Cause::mesh;
-      objection_ = "the mesh would turn over at x = " + std::to_string(where.x) + " m, y = " + std::to_string(where.y) +
-                   " m, after " + std::to_string(std::lround(100 * inversion->at)) + " % of a step's way";
+      objection_ = {base::Cause::mesh, "the mesh would turn over at x = " + std::to_string(where.x) +
+                                           " m, y = " + std::to_string(where.y) + " m, after " +
+                                           std::to_string(std::lround(100 * inversion->at)) + " % of a step's way"};
       return false;
     }
     fluid::set_rates(basin_.flow, basin_.past, basin_.solver.order);
@@ -201,8 +193,7 @@ class Way {
   std::vector<double> old_height_, old_unknown_;
   std::vector<base::Vec2> old_mesh_velocity_;
   std::vector<double> old_porosity_, old_porosity_rate_;
-  std::string objection_;
-  base::Cause cause_ = base::Cause::mesh;
+  base::Objection objection_;
 };
 
 }  // namespace
@@ -210,15 +201,15 @@ class Way {
 base::Objection step(Basin& basin, base::Profile& profile, const Suspension& suspension) {
   fluid::Flow& flow = basin.flow;
   Way way(basin, suspension);
-  const auto fail = [&](base::Cause cause, std::string why) {
+  const auto fail = [&](base::Objection why) {
     way.undo();
-    return base::Objection{cause, std::move(why)};
+    return why;
   };
 
   {
     const base::Stopwatch watch(profile, profile.index("domain"));
     way.move_surface(false);
-    if (!way.move_mesh()) return fail(way.cause(), way.objection());
+    if (!way.move_mesh()) return fail(way.objection());
   }
   way.load_mesh();
   fluid::FollowFlow follow;
@@ -230,10 +221,7 @@ base::Objection step(Basin& basin, base::Profile& profile, const Suspension& sus
       return true;
     };
   const fluid::FlowReport report = fluid::advance(flow, basin.past, basin.solver, profile, follow);
-  if (!report.converged)
-    return !way.objection().empty()                 ? fail(way.cause(), way.objection())
-           : is_finite(basin.past.level[0].unknown) ? fail(base::Cause::flow, report.reason)
-                                                    : fail(base::Cause::not_finite, "the flow was not finite");
+  if (!report.converged) return fail(way.objection().empty() ? fluid::objection(report, basin.past) : way.objection());
 
   if (basin.spec.pile) feel_pile(basin, fluid::scheme_of(basin.past, basin.solver));
   if (suspension.solved) suspension.solved(basin);

@@ -161,6 +161,13 @@ TimeScheme scheme_of(const Past& past, const FlowSolver& solver) {
   return scheme;
 }
 
+base::Objection objection(const FlowReport& report, const Past& past) {
+  if (report.converged) return {};
+  if (std::ranges::all_of(past.level[0].unknown, [](double v) { return std::isfinite(v); }))
+    return {base::Cause::flow, report.reason};
+  return {base::Cause::not_finite, "the flow was not finite"};
+}
+
 void remember(Past& past, const Flow& flow, double dt) {
   if (dt != past.dt) past.level.clear();
   past.dt = dt;

@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "solver/base/instruction_set.h"
+#include "solver/base/objection.h"
 #include "solver/base/profile.h"
 #include "solver/fluid/flow.h"
 #include "solver/fluid/kept_factor.h"
@@ -84,6 +85,9 @@ struct FlowReport {
   /// What the equations of continuity are short of where the iteration ended, (vertices) [m2/s].
   std::vector<double> defect;
 };
+
+/// Why the flow could not be advanced; empty when it was.
+base::Objection objection(const FlowReport& report, const Past& past);
 
 /// Remembers the flow as it is as the newest level. Forgets what was before when dt changes.
 void remember(Past& past, const Flow& flow, double dt);

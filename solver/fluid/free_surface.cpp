@@ -4,6 +4,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/fluid/boundary_terms.h"
 #include "solver/fluid/dual.h"
@@ -81,6 +82,8 @@ std::vector<double> upwinded(const FreeSurface& surface, std::span<const Surface
   Matrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<Matrix> factor(matrix);
+  // With factors that are none, of velocities that are no numbers, nothing may be solved.
+  if (factor.info() != Eigen::Success) return std::vector<double>(count, std::numeric_limits<double>::quiet_NaN());
   const Eigen::VectorXd rise = factor.solve(right);
   std::vector<double> height(count);
   for (std::size_t s = 0; s < count; ++s) height[s] = before[s] + rise[static_cast<Eigen::Index>(s)];
@@ -208,14 +211,16 @@ double largest_leak(const FreeSurface& surface, std::span<const base::Vec2> inte
   return largest;
 }
 
-std::string objection(const FreeSurface& surface) {
+base::Objection objection(const FreeSurface& surface) {
+  using base::Cause;
   for (std::size_t s = 0; s < surface.height.size(); ++s) {
     const std::string place = " at x = " + std::to_string(surface.x[s]);
-    if (!std::isfinite(surface.height[s])) return "the surface's height is not finite" + place;
-    if (!(surface.height[s] > surface.columns.bottom)) return "the surface has come down to the bottom" + place;
+    if (!std::isfinite(surface.height[s])) return {Cause::not_finite, "the surface's height is not finite" + place};
+    if (!(surface.height[s] > surface.columns.bottom))
+      return {Cause::mesh, "the surface has come down to the bottom" + place};
     if (s > 0 && surface.gap != s - 1 &&
         std::abs(surface.height[s] - surface.height[s - 1]) > kSteepest * (surface.x[s] - surface.x[s - 1]))
-      return "the surface is too steep to be a graph" + place;
+      return {Cause::mesh, "the surface is too steep to be a graph" + place};
   }
   return {};
 }

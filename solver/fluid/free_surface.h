@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/objection.h"
 #include "solver/fluid/flow.h"
 #include "solver/mesh/columns.h"
 
@@ -78,8 +79,7 @@ std::vector<double> curvature(const FreeSurface& surface, Geometry geometry);
 /// Largest |v.n| of the surface's edges that begin at or behind `from` [m/s].
 double largest_leak(const FreeSurface& surface, std::span<const base::Vec2> interstitial, double from);
 
-/// One sentence when the surface is no graph that a mesh can hang on any more: not finite, at the bottom, or too steep.
-/// Empty when it is.
-std::string objection(const FreeSurface& surface);
+/// When the surface is no graph that a mesh can hang on any more: not finite, at the bottom, or too steep.
+base::Objection objection(const FreeSurface& surface);
 
 }  // namespace seapile::fluid

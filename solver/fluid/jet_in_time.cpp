@@ -31,7 +31,7 @@ JetInTime started(const JetSpec& spec, const TransientMethod& method, base::Inst
   JetInTime run;
   run.jet = flat_jet(spec);
   run.jet.surface.scheme = method.kinematic;
-  run.dt = method.step;
+  run.clock.dt = method.step;
   run.solver.order = method.order == 2 ? TimeOrder::second : TimeOrder::first;
   run.solver.tolerance = method.tolerance;
   run.solver.instructions = instructions;
@@ -39,17 +39,18 @@ JetInTime started(const JetSpec& spec, const TransientMethod& method, base::Inst
   Flow& flow = run.jet.flow;
   for (std::size_t v = 0; v < flow.mesh.vertices(); ++v)
     if (!flow.held[3 * v]) flow.unknown[3 * v] = developed(spec.geometry, flow.mesh.position[v].y);
-  remember(run.past, flow, run.dt);
+  remember(run.past, flow, run.clock.size());
   return run;
 }
 
-std::string step(JetInTime& run, base::Profile& profile) {
+base::Objection step(JetInTime& run, base::Profile& profile) {
   Flow& flow = run.jet.flow;
   FreeSurface& surface = run.jet.surface;
   const std::vector<double> old_height = surface.height;
-  const auto undo = [&] {
+  const auto fail = [&](base::Objection why) {
     surface.height = old_height;
     mesh::regularise(flow.mesh, surface.columns, surface.height);
+    return why;
   };
 
   // The surface, and the mesh with it.
@@ -62,30 +63,28 @@ std::string step(JetInTime& run, base::Profile& profile) {
       for (const std::int32_t v : surface.vertex) level.height.push_back(run.past.level[k].position[v].y);
       levels.push_back(std::move(level));
     }
-    surface.height = advanced_height(surface, levels, run.dt, 0);
-    if (std::string why = objection(surface); !why.empty()) {
-      undo();
-      return why;
-    }
+    surface.height = advanced_height(surface, levels, run.clock.size(), 0);
+    if (base::Objection why = objection(surface); !why.empty()) return fail(std::move(why));
     mesh::regularise(flow.mesh, surface.columns, surface.height);
-    if (turned_over(flow.mesh)) {
-      undo();
-      return "the mesh below the surface has turned over";
-    }
+    if (turned_over(flow.mesh)) return fail({base::Cause::mesh, "the mesh below the surface has turned over"});
     set_rates(flow, run.past, run.solver.order);
     set_pressures(run.jet);
   }
 
   // The flow on the moved domain.
   const FlowReport report = advance(flow, run.past, run.solver, profile);
-  if (!report.converged) {
-    undo();
-    return report.reason;
-  }
+  if (!report.converged) return fail(objection(report, run.past));
   run.iterations += report.iterations;
-  ++run.step;
-  remember(run.past, flow, run.dt);
+  run.clock.advance();
+  remember(run.past, flow, run.clock.size());
   return {};
+}
+
+void set_halvings(JetInTime& run, int halvings) {
+  if (halvings == run.clock.halvings) return;
+  run.clock.halvings = halvings;
+  run.past.dt = run.clock.size();
+  run.past.level.resize(1);
 }
 
 }  // namespace seapile::fluid

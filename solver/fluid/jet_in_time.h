@@ -5,8 +5,8 @@
 // pressure from outside.
 #pragma once
 
-#include <string>
-
+#include "solver/base/clock.h"
+#include "solver/base/objection.h"
 #include "solver/base/profile.h"
 #include "solver/fluid/advance.h"
 #include "solver/fluid/jet.h"
@@ -17,8 +17,7 @@ struct JetInTime {
   Jet jet;
   Past past;
   FlowSolver solver;
-  double dt = 0;          ///< [H/U]
-  std::int64_t step = 0;  ///< steps done
+  base::Clock clock;  ///< [H/U]
   std::int64_t iterations = 0;
 };
 
@@ -26,7 +25,10 @@ struct JetInTime {
 /// dam up.)
 JetInTime started(const JetSpec& spec, const TransientMethod& method, base::InstructionSet instructions);
 
-/// One step. Returns one sentence when it cannot be done; the jet is then as before.
-std::string step(JetInTime& run, base::Profile& profile);
+/// One step. Says why when it cannot be done; surface, mesh and flow are then as before.
+base::Objection step(JetInTime& run, base::Profile& profile);
+
+/// Makes the step dt/2^halvings. The past is one of the old step: what comes next begins anew, as an Euler step.
+void set_halvings(JetInTime& run, int halvings);
 
 }  // namespace seapile::fluid

@@ -228,7 +228,7 @@ NewtonReport solve_steady(Flow& flow, FreeSurface* surface, const NewtonLimits& 
     if (surface) {
       for (std::size_t s = 0; s < surface->height.size(); ++s)
         surface->height[s] += change[system.height(static_cast<std::int32_t>(s))];
-      if (report.reason = objection(*surface); !report.reason.empty()) return report;
+      if (report.reason = objection(*surface).why; !report.reason.empty()) return report;
       mesh::regularise(flow.mesh, surface->columns, surface->height);
       report.change = std::max(report.change, rise);
     }

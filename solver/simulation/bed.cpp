@@ -6,6 +6,7 @@
 // is below 1e-4 m/s and the base carries their weight within 0.1 %, both over 50 ms.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "solver/simulation/run.h"
 #include "solver/simulation/settle.h"
 #include "solver/simulation/step.h"
+#include "solver/simulation/stepping.h"
 
 namespace seapile::simulation {
 namespace {
@@ -57,10 +59,10 @@ Bed prepare_bed(const scene::BedSpec& spec, const std::vector<Array>& given, con
     ++trial;
     bed.records.clear();
     Simulation sim = build_bed(spec, start_of(spec, given), friction, execution);
-    Settled settled = settle(sim, spec.preparation.longest, bed.records, report);
+    Settled settled = settle(sim, spec.preparation.longest, execution.trying, bed.records, report);
     if (friction != spec.grains.friction.grain) {
       sim.law.friction_grain = spec.grains.friction.grain;
-      const Settled again = settle(sim, spec.preparation.longest, bed.records, report);
+      const Settled again = settle(sim, spec.preparation.longest, execution.trying, bed.records, report);
       settled = {settled.time + again.time, again.base_error, again.rms_speed};
     }
     return std::pair(std::move(sim), settled);
@@ -109,6 +111,7 @@ Bed prepare_bed(const scene::BedSpec& spec, const std::vector<Array>& given, con
                  {"kinetic_energy", last.kinetic_energy, "J/m", "left, spin included"},
                  {"overlap_max", last.overlap_max, "-", "largest overlap"},
                  {"overlap_mean", last.overlap_mean, "-", "mean overlap of the touching contacts"}};
+  std::ranges::move(metrics_of(sim.stepping, sim.clock.dt), std::back_inserter(bed.metrics));
   const double width = sim.box.right - sim.box.left;
   for (double y = 0; y < top; y += bed.profile_spacing)
     bed.porosity_profile.push_back(1 - grains::solid_fraction(discs(sim), width, y, y + bed.profile_spacing));

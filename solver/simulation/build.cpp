@@ -81,7 +81,7 @@ std::vector<Array> immersed(const scene::SceneSpec& scene, const Bed& bed, const
   sim.law.gravity = weight_in_fluid(scene);
   sim.law.twist = twist_of(scene.model);
   std::vector<Record> unused;
-  settle(sim, scene.bed.preparation.longest, unused, [](double) {});
+  settle(sim, scene.bed.preparation.longest, execution.trying, unused, [](double) {});
   return arrays_of(sim.grains);
 }
 

@@ -161,6 +161,7 @@ void restore_flow(fluid::Flow& flow, fluid::Past& past, fluid::FlowSolver& solve
   solver.first_iterations = static_cast<int>(counts[1]);
   solver.excess_iterations = static_cast<int>(counts[2]);
   solver.refactorisations = counts[3];
+  solver.factor = {};
   if (!has_array(state, "factor/value")) return;
   const auto& outer = array_of<std::int32_t>(state, "factor/outer", 3 * vertices + 1);
   const auto& value = array_of<double>(state, "factor/value");

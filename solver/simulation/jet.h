@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "solver/fluid/jet_spec.h"
@@ -19,9 +20,11 @@ struct JetHooks {
   std::function<bool()> checkpoint_due;
   std::function<void(const std::vector<Array>&)> checkpoint;
   std::function<bool()> stop;
+  std::function<void(const std::vector<Array>& rejected, const std::string& reason)> post_mortem;
 };
 
-/// Runs a jet. `resume_from`: a checkpoint's state, or empty. A steady jet has no checkpoints.
+/// Runs a jet. `resume_from`: a checkpoint's state, or empty. A steady jet has no checkpoints. One in time that cannot
+/// go on is `diverged`: it hands out its last good state as a checkpoint, then the rejected one.
 RunResult run_jet(const fluid::JetSpec& jet, const Execution& execution, const std::vector<Array>& resume_from,
                   const JetHooks& hooks);
 

@@ -59,6 +59,11 @@ Objection objection(const basin::Basin& basin) {
   return {};
 }
 
+Objection objection(const fluid::Jet& jet) {
+  if (!all_finite(jet.flow.unknown)) return {Cause::not_finite, "the flow is not finite"};
+  return fluid::objection(jet.surface);
+}
+
 Objection overlap_objection(const Simulation& sim, double overlap) {
   if (overlap <= bounds_of(sim.law).overlap) return {};
   return {Cause::overlap, "two bodies overlap by " + std::to_string(overlap) + " of the smaller radius"};
@@ -73,10 +78,15 @@ EnergyLevel energy_level(const Simulation& sim) {
       sim.contacts);
 }
 
+Objection motion_objection(const EnergyLevel& now) {
+  // Every one is in it.
+  if (!std::isfinite(now.kinetic)) return {Cause::not_finite, "a grain's motion is not a number"};
+  return {};
+}
+
 Objection stretch_objection(const Simulation& sim, const EnergyLevel& before) {
   const EnergyLevel now = energy_level(sim);
-  // Every velocity and spin is in it.
-  if (!std::isfinite(now.kinetic)) return {Cause::not_finite, "a grain's motion is not a number"};
+  if (Objection why = motion_objection(now); !why.empty()) return why;
   const double overlap = std::visit(
       [&](const auto& system) {
         return overlaps(system, sim.grains, sim.pile ? &sim.pile->body : nullptr, sim.team.crew.get()).max;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/basin/basin.h"
+#include "solver/fluid/jet.h"
 #include "solver/simulation/simulation.h"
 #include "solver/simulation/step.h"
 
@@ -15,6 +16,9 @@ Objection objection(const Simulation& simulation, const StepReport& report);
 /// Of a step of a basin: finite flow and surface, volume.
 Objection objection(const basin::Basin& basin);
 
+/// Of a step of a jet: finite flow, a surface above the axis that is a graph.
+Objection objection(const fluid::Jet& jet);
+
 /// Of a largest overlap [radii of the smaller].
 Objection overlap_objection(const Simulation& simulation, double overlap);
 
@@ -23,6 +27,9 @@ struct EnergyLevel {
   double kinetic = 0, potential = 0, work = 0, push_work = 0, dissipation = 0;
 };
 EnergyLevel energy_level(const Simulation& simulation);
+
+/// Every velocity and spin is finite.
+Objection motion_objection(const EnergyLevel& now);
 
 /// Of the end of a stretch that began with `before`: what is too costly for every step. Motion and spins are finite, no
 /// overlap is too large, and the grains have gained no energy that nothing has given them.

@@ -1,6 +1,7 @@
 #include "solver/simulation/settle.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +12,7 @@
 namespace seapile::simulation {
 namespace {
 
+constexpr std::int64_t kStretch = 20;    // steps between two states to go back to: about a record's time
 constexpr double kRecordTime = 0.01;     // [s] between two records
 constexpr double kRestTime = 0.05;       // [s] over which a bed must be at rest
 constexpr double kRestSpeed = 1e-4;      // [m/s] rms
@@ -28,31 +30,122 @@ double weight(const Simulation& sim) {
   return mass * sim.law.gravity;
 }
 
-}  // namespace
+/// A bed on its way to rest, from a simulation's present state.
+class Settling {
+ public:
+  Settling(Simulation& sim, double longest, const Trying& trying, std::vector<Record>& records,
+           const std::function<void(double)>& progress)
+      : sim_(sim),
+        longest_(longest),
+        stretch_(trying.stretch > 0 ? trying.stretch : kStretch),
+        reject_at_(trying.reject_at),
+        records_(records),
+        progress_(progress),
+        start_time_(sim.clock.time()),
+        weight_(weight(sim)) {}
 
-Settled settle(Simulation& sim, double longest, std::vector<Record>& records,
-               const std::function<void(double)>& progress) {
-  const double start = sim.clock.time(), heavy = weight(sim);
-  int at_rest = 0;
-  Settled settled;
-  while (at_rest < std::lround(kRestTime / kRecordTime)) {
-    const double until = sim.clock.time() + kRecordTime;
-    while (sim.clock.time() < until - 0.5 * sim.clock.dt) {
-      const StepReport report = step(sim);
-      if (const Objection why = objection(sim, report); !why.empty())
-        throw std::runtime_error("the bed does not settle: " + why.why);
-      gather(sim, report);
+  Settled run() {
+    now_.until = start_time_ + kRecordTime;
+    begin_stretch();
+    for (;;) {
+      if (!at_rest() && steps_ < stretch_) {
+        advance();
+      } else if (const Objection why = motion_objection(energy_level(sim_)); !why.empty()) {
+        reject(why);
+      } else {
+        if (at_rest()) return now_.settled;
+        begin_stretch();
+      }
     }
-    records.push_back(take_record(sim));
-    settled = {sim.clock.time() - start, std::abs(records.back().base_force / heavy - 1), rms_speed(sim)};
-    at_rest = settled.rms_speed < kRestSpeed && settled.base_error < kRestBaseError ? at_rest + 1 : 0;
-    progress(settled.time);
-    if (settled.time > longest)
+  }
+
+ private:
+  /// Where the loop stands beside the simulation's state.
+  struct Place {
+    double until = 0;  ///< of the present record [s]
+    int at_rest = 0;   ///< records at rest, one after the other
+    Settled settled;
+  };
+
+  bool at_rest() const { return now_.at_rest >= std::lround(kRestTime / kRecordTime); }
+
+  void begin_stretch() {
+    trial_.emplace(sim_);
+    attempts_ = Attempts(sim_.clock.halvings);
+    start_ = now_;
+    start_records_ = records_.size();
+    steps_ = 0;
+  }
+
+  void advance() {
+    if (!attempts_.rejected() && may_grow(sim_.stepping, sim_.clock, 1)) set_halvings(sim_, sim_.clock.halvings - 1);
+    const StepReport report = step(sim_);
+    if (const Objection why = objection(sim_, report); !why.empty()) return reject(why);
+    gather(sim_, report);
+    ++steps_;
+    count_accepted(sim_.stepping, sim_.clock);
+    if (sim_.clock.step == reject_at_) {
+      reject_at_ = -1;
+      return go_back();
+    }
+    if (sim_.clock.time() >= now_.until - 0.5 * sim_.clock.size()) take();
+  }
+
+  /// Takes a record and looks whether the bed is at rest.
+  void take() {
+    records_.push_back(take_record(sim_));
+    Settled& settled = now_.settled;
+    settled = {sim_.clock.time() - start_time_, std::abs(records_.back().base_force / weight_ - 1), rms_speed(sim_)};
+    const bool rests = settled.rms_speed < kRestSpeed && settled.base_error < kRestBaseError;
+    now_.at_rest = rests ? now_.at_rest + 1 : 0;
+    now_.until = sim_.clock.time() + kRecordTime;
+    progress_(settled.time);
+    if (settled.time > longest_)
       throw std::runtime_error("the bed is not at rest after the longest settling time: rms speed " +
                                std::to_string(settled.rms_speed) + " m/s, base force off by " +
                                std::to_string(100 * settled.base_error) + " %");
   }
-  return settled;
+
+  /// Everything returns to the stretch's start.
+  void go_back() {
+    Stepping known = sim_.stepping;
+    trial_->reject(sim_);
+    known.calm = sim_.stepping.calm;
+    sim_.stepping = known;
+    set_halvings(sim_, attempts_.halvings());
+    now_ = start_;
+    records_.resize(start_records_);
+    steps_ = 0;
+  }
+
+  void reject(const Objection& why) {
+    ++sim_.stepping.rejected[static_cast<std::size_t>(why.cause)];
+    const Remedy remedy = attempts_.after(sim_.clock.halvings, false);
+    go_back();
+    if (remedy == Remedy::stop) throw std::runtime_error("the bed does not settle: " + why.why);
+  }
+
+  Simulation& sim_;
+  double longest_;
+  std::int64_t stretch_, reject_at_;
+  std::vector<Record>& records_;
+  const std::function<void(double)>& progress_;
+  double start_time_, weight_;
+  Place now_;
+
+  // Of the stretch.
+  std::optional<Trial> trial_;
+  Attempts attempts_{0};
+  Place start_;
+  std::size_t start_records_ = 0;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace
+
+Settled settle(Simulation& sim, double longest, const Trying& trying, std::vector<Record>& records,
+               const std::function<void(double)>& progress) {
+  return Settling(sim, longest, trying, records, progress).run();
 }
 
 }  // namespace seapile::simulation

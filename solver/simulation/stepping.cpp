@@ -31,12 +31,12 @@ Stepping stepping_of(const std::vector<Array>& state, const char* name) {
   return stepping;
 }
 
-std::vector<Metric> metrics_of(const Stepping& stepping, double dt) {
+std::vector<Metric> metrics_of(const Stepping& stepping, double dt, const char* unit, const char* scale) {
   const auto& rejected = stepping.rejected;
   const std::int64_t all = std::accumulate(rejected.begin(), rejected.end(), std::int64_t{0});
   std::vector<Metric> metrics{
       {"steps_rejected", static_cast<double>(all), "-", "steps objected to, whose stretch was done again"},
-      {"step_smallest", std::ldexp(dt, -stepping.smallest), "s", "smallest step tried"}};
+      {"step_smallest", std::ldexp(dt, -stepping.smallest), unit, std::string("smallest step tried") + scale}};
   for (std::size_t c = 0; c < rejected.size(); ++c)
     if (rejected[c] > 0)
       metrics.push_back({std::string("steps_rejected_") + base::kCauseTexts[c].name, static_cast<double>(rejected[c]),

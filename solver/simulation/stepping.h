@@ -39,8 +39,9 @@ Array as_array(const Stepping& stepping, const char* name);
 /// What the array was made of; nothing rejected where there is none. Throws std::invalid_argument when it does not fit.
 Stepping stepping_of(const std::vector<Array>& state, const char* name);
 
-/// steps_rejected, step_smallest, and steps_rejected_<cause> for each cause there was. `dt`: of a whole step [s].
-std::vector<Metric> metrics_of(const Stepping& stepping, double dt);
+/// steps_rejected, step_smallest, and steps_rejected_<cause> for each cause there was. `dt`: of a whole step, in
+/// `unit`, or in what `scale` says of it.
+std::vector<Metric> metrics_of(const Stepping& stepping, double dt, const char* unit = "s", const char* scale = "");
 
 /// Counts an accepted step.
 void count_accepted(Stepping& stepping, const base::Clock& clock);

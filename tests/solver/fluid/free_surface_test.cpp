@@ -126,13 +126,13 @@ TEST(FreeSurface, EndsAtRightAnglesPullASlopedSurfaceFlat) {
 
 TEST(FreeSurface, WhatIsNoGraphIsTold) {
   FreeSurface surface = surface_of(1, 10, [](double) { return 1; });
-  EXPECT_EQ(objection(surface), "");
+  EXPECT_EQ(objection(surface).why, "");
   surface.height[4] = 2.1;
-  EXPECT_THAT(objection(surface), testing::HasSubstr("too steep to be a graph at x = 0.4"));
+  EXPECT_THAT(objection(surface).why, testing::HasSubstr("too steep to be a graph at x = 0.4"));
   surface.height[4] = -0.1;
-  EXPECT_THAT(objection(surface), testing::HasSubstr("bottom at x = 0.4"));
+  EXPECT_THAT(objection(surface).why, testing::HasSubstr("bottom at x = 0.4"));
   surface.height[4] = std::nan("");
-  EXPECT_THAT(objection(surface), testing::HasSubstr("not finite at x = 0.4"));
+  EXPECT_THAT(objection(surface).why, testing::HasSubstr("not finite at x = 0.4"));
 }
 
 }  // namespace

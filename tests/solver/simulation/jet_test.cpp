@@ -121,17 +121,24 @@ TEST(Jet, ARerunAndEveryInstructionSetGiveTheSameBits) {
 }
 
 TEST(Jet, AStepTooLongForTheFilmEndsWithAReasonAndALastGoodState) {
-  // Explicit tension: the step is far beyond the capillary limit sqrt(rho dx^3/(2 pi gamma)).
+  // Explicit tension: even a 256th of the step is far beyond the capillary limit sqrt(rho dx^3/(2 pi gamma)).
   JetSpec jet = coarse(Geometry::planar, 24);
   jet.capillary = 0.02;
-  jet.method = TransientMethod{0.2, 40};
+  jet.method = TransientMethod{1, 40};
   std::vector<Array> kept;
   JetHooks hooks;
   hooks.checkpoint = [&](const std::vector<Array>& state) { kept = state; };
+  std::vector<Array> rejected;
+  hooks.post_mortem = [&](const std::vector<Array>& state, const std::string&) {
+    EXPECT_FALSE(kept.empty()) << "the last accepted state is sealed first";
+    rejected = state;
+  };
   const RunResult result = run(jet, hooks);
   EXPECT_EQ(result.outcome, Outcome::diverged);
   EXPECT_THAT(result.reason, testing::HasSubstr("at t = "));
-  EXPECT_FALSE(kept.empty());
+  EXPECT_EQ(metric(result, "step_smallest"), 1.0 / 256);
+  EXPECT_GE(metric(result, "steps_rejected"), 9);
+  EXPECT_FALSE(rejected.empty());
 }
 
 TEST(Jet, HasNoGrainsAndSaysWhy) {

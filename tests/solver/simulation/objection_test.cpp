@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "solver/basin/step.h"
+#include "solver/fluid/jet_in_time.h"
 #include "solver/simulation/bounds.h"
 #include "solver/simulation/build.h"
+#include "solver/simulation/settle.h"
 #include "tests/support/scenes.h"
 
 namespace seapile::simulation {
@@ -53,6 +55,25 @@ Objection after_a_step(basin::Basin& basin) {
   base::Profile profile;
   Objection why = step(basin, profile);
   return why.empty() ? objection(basin) : why;
+}
+
+fluid::JetInTime jet() {
+  fluid::JetSpec spec;
+  spec.lip_size = 0.05;
+  spec.growth = 0.3;
+  spec.largest_size = 0.3;
+  spec.downstream = 6;
+  fluid::JetInTime jet = started(spec, fluid::TransientMethod{0.02, 1, 2}, base::InstructionSet::generic);
+  base::Profile profile;
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(step(jet, profile).why, "");
+  EXPECT_EQ(objection(jet.jet).why, "");
+  return jet;
+}
+
+Objection after_a_step(fluid::JetInTime& jet) {
+  base::Profile profile;
+  Objection why = step(jet, profile);
+  return why.empty() ? objection(jet.jet) : why;
 }
 
 #define EXPECT_CAUSE(objection_, cause_)                                        \
@@ -101,6 +122,55 @@ TEST(Objection, ASurfaceThatIsNoNumberIsSeenAtOnce) {
   EXPECT_CAUSE(after_a_step(before), Cause::not_finite);
   after.top.height[3] = kNaN;
   EXPECT_CAUSE(objection(after), Cause::not_finite);
+}
+
+TEST(Objection, AJetThatIsNoNumberOrTouchesItsAxisIsSeenAtOnce) {
+  fluid::JetInTime flow = jet(), surface = jet(), low = jet(), unsolved = jet();
+  flow.past.level[0].unknown[kPressure10] = kNaN;
+  EXPECT_CAUSE(after_a_step(flow), Cause::not_finite);
+  const auto film = static_cast<std::size_t>(surface.jet.surface.vertex[3]);
+  surface.past.level[0].position[film].y = kNaN;
+  EXPECT_CAUSE(after_a_step(surface), Cause::not_finite);
+  low.past.level[0].position[film].y = -1;
+  EXPECT_CAUSE(after_a_step(low), Cause::mesh);
+  unsolved.solver.tolerance = -1;
+  EXPECT_CAUSE(after_a_step(unsolved), Cause::flow);
+
+  fluid::Jet accepted = jet().jet;
+  accepted.flow.unknown[kPressure10] = kNaN;
+  EXPECT_CAUSE(objection(accepted), Cause::not_finite);
+  accepted = jet().jet;
+  accepted.surface.height[3] = kNaN;
+  EXPECT_CAUSE(objection(accepted), Cause::not_finite);
+  accepted.surface.height[3] = 0;
+  EXPECT_CAUSE(objection(accepted), Cause::mesh);
+}
+
+/// With what a bed refuses to settle, and how often it was tried.
+void expect_unsettled(Simulation sim) {
+  std::vector<Record> records;
+  try {
+    settle(sim, 60, {}, records, [](double) {});
+    ADD_FAILURE() << "it has settled";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).find("the bed does not settle: a grain's "), 0u) << error.what();
+  }
+  EXPECT_TRUE(records.empty()) << "nothing is recorded of a stretch that was not accepted";
+  EXPECT_EQ(sim.stepping.rejected[static_cast<std::size_t>(Cause::not_finite)], 9) << "the step, and its halvings";
+  EXPECT_EQ(sim.stepping.smallest, base::kMostHalvings);
+}
+
+TEST(Objection, ABedThatIsNoNumberDoesNotSettle) {
+  const scene::BedSpec spec = support::small_bed(100, 0.5);
+  const auto bed = [&] { return build_bed(spec, grains_of(support::settled(spec).grains, 1500), 0.5, {}); };
+  Simulation moving = bed();
+  std::visit([](auto& system) { system.motion(50).vx = NAN; }, moving.contacts);
+  expect_unsettled(std::move(moving));
+  // Of a grain that touches nothing, only its spin.
+  Simulation spinning = bed();
+  spinning.grains.disc[50].y += 100;
+  std::visit([](auto& system) { system.motion(50).u = NAN; }, spinning.contacts);
+  expect_unsettled(std::move(spinning));
 }
 
 TEST(Objection, WhatIsReportedIsHeldAgainstItsBound) {
