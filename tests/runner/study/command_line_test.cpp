@@ -130,18 +130,18 @@ TEST_F(CommandLine, SeedsAreAWholeNumberOfCases) {
 }
 
 TEST_F(CommandLine, ALevelOfFidelityTakesThePlaceOfTheStudys) {
-  const auto substeps = [&](const std::string& members, const std::string& level) {
+  const auto steps = [&](const std::string& members, const std::string& level) {
     Options options;
     options.fidelity = level;
-    std::vector<std::int64_t> all;
-    for (const Case& one : study(members, options).cases) all.push_back(one.scene.contact.substeps);
+    std::vector<double> all;
+    for (const Case& one : study(members, options).cases) all.push_back(one.scene.contact.step);
     return all;
   };
-  EXPECT_EQ(substeps(R"("base": {"pile": {}}, "fidelity": "reference")", "draft"), std::vector<std::int64_t>{5});
-  EXPECT_EQ(substeps(R"("base": {"pile": {}})", "reference"), std::vector<std::int64_t>{20});
+  EXPECT_EQ(steps(R"("base": {"pile": {}}, "fidelity": "reference")", "draft"), std::vector<double>{4e-3});
+  EXPECT_EQ(steps(R"("base": {"pile": {}})", "thesis"), std::vector<double>{1e-4});
   const std::string variants =
       R"("base": {"pile": {}}, "variants": [{"name": "a", "fidelity": "reference"}, {"name": "b"}])";
-  EXPECT_EQ(substeps(variants, "draft"), (std::vector<std::int64_t>{20, 5})) << "a variant's own level stays";
+  EXPECT_EQ(steps(variants, "draft"), (std::vector<double>{5e-4, 4e-3})) << "a variant's own level stays";
   Options wrong;
   wrong.fidelity = "drafd";
   EXPECT_THAT(problem(wrong), testing::AllOf(HasSubstr("--fidelity: "), HasSubstr("did you mean \"draft\"")));

@@ -33,7 +33,7 @@ TEST_F(Variants, AreTheCasesOfTheStudyWithWhatTheySay) {
   EXPECT_EQ(three.cases[3].labels.front(), expected);
   EXPECT_EQ(three.cases[0].scene.contact.substeps, 10);
   EXPECT_EQ(three.cases[2].scene.contact.substeps, 40);
-  EXPECT_EQ(three.cases[4].scene.contact.substeps, 5);
+  EXPECT_EQ(three.cases[4].scene.contact.step, 4e-3);
 }
 
 TEST_F(Variants, AVariantThatSaysNothingIsTheStudyWithoutVariants) {
