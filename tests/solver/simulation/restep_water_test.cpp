@@ -2,6 +2,8 @@
 // in time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solver/simulation/basin.h"
 #include "solver/simulation/flow_state.h"
 #include "solver/simulation/jet.h"
@@ -95,6 +97,17 @@ TEST(RestepWater, AMiddleStepThatIsTakenBackLeavesTheBits) {
 
 TEST(RestepWater, ARunThatIsStoppedHalfWayAndResumedHasTheBits) {
   for (const Scene& scene : scenes()) support::expect_resumed_is_whole(scene);
+}
+
+// A jet hands nothing out on its way of which a trace would be seen: what it has done is counted.
+TEST(RestepWater, AStretchOfAJetThatIsTakenBackIsDoneAgain) {
+  const auto surfaces = [](const Told& told) {
+    const auto part = std::ranges::find(told.result.profile, "free surface", &ProfileEntry::part);
+    return part == told.result.profile.end() ? 0 : static_cast<int>(part->calls);
+  };
+  const Scene scene = of_jet("jet", jet(2));
+  EXPECT_EQ(surfaces(scene.run()), 40);
+  EXPECT_EQ(surfaces(scene.run({{16, 25}})), 40 + 25 - 16);
 }
 
 TEST(RestepWater, AStepThatIsFarTooLongForAWaveIsHalved) {
