@@ -2,12 +2,10 @@
 //
 // The child is a fork that executes nothing: the work is a function of this program, with all that it refers to. That
 // is safe for work in one thread that takes no lock of ours, and Gmsh is such work:
-// - Of the parent's threads only the calling one goes on in the child. The others are those of a crew, which between
-// two
-//   jobs wait for the next and hold no lock (solver/base/crew.h), and no job calls this. glibc's malloc may be used
+// - Of the parent's threads only the calling one goes on in the child. The others are those of a crew, which wait for
+//   the next job and hold no lock between two (solver/base/crew.h), and no job calls this. glibc's malloc may be used
 //   after a fork.
-// - The parent uses no OpenMP, and never starts Gmsh itself, so that the child's first parallel region misses no pool
-// of
+// - The parent uses no OpenMP, and never starts Gmsh itself, so that the child's first parallel region misses no
 //   threads. Gmsh runs with one thread.
 // - The child ends by _exit: nothing of the parent's is flushed, closed or destroyed twice.
 // - It lets go of the parent's descriptors at once: locks, files, and the pipe by which others see that the parent has
