@@ -56,12 +56,14 @@ TEST_F(FlowJob, ItsSwellRatioIsChecked) {
 TEST_F(FlowJob, AStepTooLongForTheFilmIsADivergedRunThatIsKept) {
   place.write(
       "water.json",
-      jet_study(
-          R"(, "geometry": "planar", "capillary": 0.02, "method": {"transient": {"step": 0.5, "duration": 40}})"));
+      jet_study(R"(, "geometry": "planar", "capillary": 0.01, "method": {"transient": {"step": 2, "duration": 40}})"));
   const Finished finished = place.run({"water.json"});
   EXPECT_EQ(finished.exit_code, 1);
   EXPECT_THAT(finished.error, HasSubstr("diverged"));
-  EXPECT_THAT(result().result.reason, HasSubstr("at t = "));
+  const store::Manifest manifest = result();
+  EXPECT_THAT(manifest.result.reason, HasSubstr("at t = "));
+  EXPECT_TRUE(
+      fs::exists(store::case_folder(place.results(), manifest.header.case_id) / manifest.run / "post_mortem.h5"));
 }
 
 TEST_F(FlowJob, WhatAJetHasNotIsRefusedBeforeAnythingIsWritten) {
