@@ -36,16 +36,14 @@ present::EdgeProbe probe_of(const study::Study& study, const study::Case& one, c
   present::EdgeProbe probe;
   probe.value = one.probe.value();
   const auto folder = store::newest_run(root, one.id);
+  if (folder.empty()) return probe;
+  const store::FinishedCase run{store::read_manifest(folder), {}};
   // What older numerics came to says nothing of today's.
-  if (folder.empty() || !execute::are_of_today(store::read_manifest(folder).header.numerics, one.scene)) return probe;
-  if (const auto run = store::read_finished(root, one.id, false)) {
-    probe.finished = true;
-    probe.tripped = broken(study, *run);
-  } else {
-    const auto result = store::read_manifest(folder).result;
-    probe.finished = result.outcome == simulation::Outcome::diverged;
-    if (probe.finished) probe.tripped = result.reason;
-  }
+  if (!execute::are_of_today(run.manifest.header.numerics, one.scene)) return probe;
+  const simulation::RunResult& result = run.manifest.result;
+  probe.finished = result.outcome != simulation::Outcome::stopped;
+  if (result.outcome == simulation::Outcome::completed) probe.tripped = broken(study, run);
+  if (result.outcome == simulation::Outcome::diverged) probe.tripped = result.reason;
   return probe;
 }
 

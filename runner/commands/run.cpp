@@ -109,6 +109,7 @@ int run_edge(const RunArguments& arguments) {
       if (const auto objection = execute::objection(campaign.sharing()); !objection.empty())
         throw UsageError(objection);
       for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
+      say_what_is_built(to_run);
       if (arguments.dry_run) return execute::kDone;
       const int code = campaign.carry_out();
       if (code != execute::kDone && code != execute::kSomeCasesFailed) return code;

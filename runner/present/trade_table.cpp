@@ -95,6 +95,27 @@ Grouped table_of(const std::vector<TradedGroup>& groups, const Judged& judged, b
   return grouped;
 }
 
+std::string own_error_of(const std::vector<TradedGroup>& groups, const Judged& judged) {
+  const std::string& coarser = groups.front().coarser;
+  if (coarser.empty()) return "unknown: the study names no coarser variant";
+  std::vector<double> bounds(groups.front().metrics.size(), 0);
+  for (const auto& levels : judged)
+    for (const TradeLevel& level : levels) {
+      if (level.name != coarser) continue;
+      for (std::size_t m = 0; m < bounds.size(); ++m) {
+        const double bound = level.errors[m].bound;
+        if (!(bound <= bounds[m])) bounds[m] = bound;  // also when it is none
+      }
+    }
+  std::string text;
+  for (std::size_t m = 0; m < bounds.size(); ++m) {
+    if (m > 0) text += ", ";
+    text += groups.front().metrics[m];
+    text += std::isnan(bounds[m]) ? " unknown" : fmt::format(" at most {:.2g} %", kPercent * bounds[m]);
+  }
+  return fmt::format("{} (95 %), by what separates it from \"{}\"", text, coarser);
+}
+
 }  // namespace
 
 Grouped trade_table(const std::vector<TradedGroup>& groups, bool ablation) {
@@ -123,31 +144,12 @@ std::string trade_text(const std::vector<TradedGroup>& groups, bool ablation) {
       }
     }
   }
-  if (!groups.front().coarser.empty()) lines += "the reference's own error: " + own_error(groups) + "\n";
+  if (!groups.front().coarser.empty()) lines += "the reference's own error: " + own_error_of(groups, judged) + "\n";
   if (!ablation) lines += "frontier: 1 where nothing that was measured is both cheaper and closer, by the bound\n";
   lines += "bound: of the error's size, 95 %; cost: CPU time over that of the same packing's ";
   return lines + (groups.front().against.empty() ? "(none)\n" : "\"" + groups.front().against + "\"\n");
 }
 
-std::string own_error(const std::vector<TradedGroup>& groups) {
-  const std::string& coarser = groups.front().coarser;
-  if (coarser.empty()) return "unknown: the study names no coarser variant";
-  std::vector<double> bounds(groups.front().metrics.size(), 0);
-  for (const TradedGroup& group : groups)
-    for (const TradeLevel& level : judge(group)) {
-      if (level.name != coarser) continue;
-      for (std::size_t m = 0; m < bounds.size(); ++m) {
-        const double bound = level.errors[m].bound;
-        if (!(bound <= bounds[m])) bounds[m] = bound;  // also when it is none
-      }
-    }
-  std::string text;
-  for (std::size_t m = 0; m < bounds.size(); ++m) {
-    if (m > 0) text += ", ";
-    text += groups.front().metrics[m];
-    text += std::isnan(bounds[m]) ? " unknown" : fmt::format(" at most {:.2g} %", kPercent * bounds[m]);
-  }
-  return fmt::format("{} (95 %), by what separates it from \"{}\"", text, coarser);
-}
+std::string own_error(const std::vector<TradedGroup>& groups) { return own_error_of(groups, judged_of(groups)); }
 
 }  // namespace seapile::present
