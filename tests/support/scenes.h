@@ -35,6 +35,20 @@ inline scene::SceneSpec small_drive(std::int64_t count, double width, const pile
   return scene;
 }
 
+/// 300 grains under 0.6 m of water, and a cone that goes down through a remesh.
+inline scene::SceneSpec small_saturated_drive() {
+  scene::SceneSpec scene = small_drive(300, 0.8, pile::ConicalTip{});
+  scene.bed.domain.height = 1.2;
+  scene::FluidSpec& fluid = scene.fluid.emplace();
+  fluid.depth = 0.9;
+  fluid.mesh.size = 0.09;
+  fluid.mesh.pile_size = 0.06;
+  fluid.mesh.motion = basin::ZonesMotion{0.2};
+  fluid.mesh.remesh->share = 0.02;
+  fluid.time.step = 1e-3;
+  return scene;
+}
+
 /// Two frames on the way; everything else as usual.
 inline scene::RecordSpec small_record() {
   scene::RecordSpec record;

@@ -93,22 +93,8 @@ TEST(BrokenMesher, ABasinThatGetsNoNewMeshHasDivergedAtItsLastGoodState) {
   EXPECT_FALSE(last.empty());
 }
 
-/// 300 grains under 0.6 m of water.
-scene::SceneSpec saturated() {
-  scene::SceneSpec scene = support::small_drive(300, 0.8, pile::ConicalTip{});
-  scene.bed.domain.height = 1.2;
-  scene::FluidSpec& fluid = scene.fluid.emplace();
-  fluid.depth = 0.9;
-  fluid.mesh.size = 0.09;
-  fluid.mesh.pile_size = 0.06;
-  fluid.mesh.motion = basin::ZonesMotion{0.2};
-  fluid.mesh.remesh->share = 0.02;
-  fluid.time.step = 1e-3;
-  return scene;
-}
-
 TEST(BrokenMesher, ASaturatedBedWithoutAMeshHasDiverged) {
-  const scene::SceneSpec scene = saturated();
+  const scene::SceneSpec scene = support::small_saturated_drive();
   const Bed& bed = support::settled(scene.bed);
   const Broken broken("crashes");
   const RunResult result = run(scene, support::small_record(), bed, {}, {}, {}, {});
@@ -117,7 +103,7 @@ TEST(BrokenMesher, ASaturatedBedWithoutAMeshHasDiverged) {
 }
 
 TEST(BrokenMesher, ASaturatedBedThatGetsNoNewMeshHasDivergedAtItsLastGoodState) {
-  const scene::SceneSpec scene = saturated();
+  const scene::SceneSpec scene = support::small_saturated_drive();
   std::optional<Broken> broken;
   RunHooks hooks;
   hooks.record = [&](const Record&) { broken.emplace("crashes"); };

@@ -54,16 +54,8 @@ scene::SceneSpec dry(const pile::Tip& tip) {
 }
 
 scene::SceneSpec wet(coupling::Scheme scheme) {
-  scene::SceneSpec scene = small_drive(300, 0.8, pile::ConicalTip{});
-  scene.bed.domain.height = 1.2;
-  scene::FluidSpec& fluid = scene.fluid.emplace();
-  fluid.depth = 0.9;
-  fluid.mesh.size = 0.09;
-  fluid.mesh.pile_size = 0.06;
-  fluid.mesh.motion = basin::ZonesMotion{0.2};
-  fluid.mesh.remesh->share = 0.02;
-  fluid.time.step = 1e-3;
-  fluid.coupling.scheme = scheme;
+  scene::SceneSpec scene = support::small_saturated_drive();
+  scene.fluid->coupling.scheme = scheme;
   return scene;
 }
 

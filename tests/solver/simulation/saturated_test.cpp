@@ -18,19 +18,7 @@ namespace {
 
 using support::settled;
 
-/// 300 grains under 0.6 m of water, and a pile that goes down through a remesh.
-scene::SceneSpec wet() {
-  scene::SceneSpec scene = support::small_drive(300, 0.8, pile::ConicalTip{});
-  scene.bed.domain.height = 1.2;
-  scene::FluidSpec& fluid = scene.fluid.emplace();
-  fluid.depth = 0.9;
-  fluid.mesh.size = 0.09;
-  fluid.mesh.pile_size = 0.06;
-  fluid.mesh.motion = basin::ZonesMotion{0.2};
-  fluid.mesh.remesh->share = 0.02;
-  fluid.time.step = 1e-3;
-  return scene;
-}
+scene::SceneSpec wet() { return support::small_saturated_drive(); }
 
 struct Told {
   std::vector<Record> records;
