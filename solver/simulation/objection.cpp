@@ -95,11 +95,12 @@ Objection stretch_objection(const Simulation& sim, const EnergyLevel& before) {
   if (Objection why = overlap_objection(sim, overlap); !why.empty()) return why;
 
   const double work = now.work - before.work, pushed = now.push_work - before.push_work,
-               taken = now.dissipation - before.dissipation;
+               change = now.dissipation - before.dissipation,
+               taken = change < 0 ? 0 : change;  // Contacts take; what they make nothing gave.
   const double gained = now.kinetic - before.kinetic + now.potential - before.potential - work - pushed + taken;
   double weight = 0;
   for (const double m : sim.grains.mass) weight += m * sim.law.gravity;
-  const double known = before.kinetic + std::abs(work) + std::abs(pushed) + std::abs(taken);
+  const double known = before.kinetic + std::abs(work) + std::abs(pushed) + taken;
   if (!(gained <= kGainedEnergy * known + kGainedRise * weight * smallest_radius(sim)))
     return {Cause::energy, "the grains have gained " + std::to_string(gained) + " J/m that nothing gave them"};
   return {};

@@ -36,6 +36,7 @@ TEST(EdgeStudy, EndsBetweenWhatHoldsAndWhatDoesNotAndTriesNothingTwice) {
   EXPECT_THAT(first.out, HasSubstr("galerkin"));
   EXPECT_THAT(first.out, HasSubstr("found"));
   EXPECT_THAT(first.out, HasSubstr("always holds")) << "the surface that is found with the flow";
+  EXPECT_THAT(first.error, HasSubstr("convection      built")) << "which parts are built, and why";
   const auto runs = runs_in(place);
 
   const Finished second = place.run({"edge.json"});

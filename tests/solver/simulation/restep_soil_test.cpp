@@ -156,5 +156,22 @@ TEST(RestepSoil, ABedWhoseStepIsTooLongSettlesWithSmallerOnes) {
   expect_same(scene.run({{}, kNever, {}, 2}), whole, "two threads");
 }
 
+// Its rule asks for no new mesh by itself, as no quality is too bad for it: only where nothing else helps.
+TEST(RestepSoil, ANewMeshIsMadeWhereSmallerStepsDoNotHelp) {
+  scene::SceneSpec spec = wet(coupling::Scheme::once);
+  spec.pile->depth = 0.25;
+  spec.fluid->mesh.motion = basin::EllipticMotion{};
+  spec.fluid->mesh.remesh = basin::RemeshSpec{.angle = 0, .share = 1, .shape = 0};
+  const Scene scene = of_drive("deep", spec);
+  const Told whole = scene.run();
+  ASSERT_EQ(whole.result.outcome, Outcome::completed) << whole.result.reason;
+  EXPECT_GE(metric(whole.result.metrics, "steps_rejected_mesh"), 9) << "the step, and its halvings";
+  EXPECT_GT(metric(whole.result.metrics, "meshes"), 1);
+  std::printf("deep: %g rejected, %g meshes\n", metric(whole.result.metrics, "steps_rejected"),
+              metric(whole.result.metrics, "meshes"));
+  spec.fluid->mesh.remesh.reset();
+  EXPECT_EQ(of_drive("one mesh", spec).run().result.outcome, Outcome::diverged);
+}
+
 }  // namespace
 }  // namespace seapile::simulation
