@@ -56,7 +56,7 @@ int accept_values(const study::Study& study, const CheckedCases& cases, const st
     }
     const store::Manifest& manifest = cases.finished(watched.study_case)->manifest;
     study::accept(values, {one.id, watched.metric, metric->value, metric->unit, watched.drift, manifest.run,
-                           numerics_text(manifest.header), std::string(study::trimmed(note))});
+                           numerics_text(manifest.header.numerics), std::string(study::trimmed(note))});
   }
   store::make_folder(file.parent_path());
   store::write_text(file, study::accepted_text(values));

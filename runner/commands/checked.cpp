@@ -185,9 +185,9 @@ std::vector<present::Comparison> CheckedCases::with_accepted(const std::vector<s
   return comparisons;
 }
 
-std::string numerics_text(const store::RunHeader& header) {
+std::string numerics_text(const std::vector<simulation::NumericsVersion>& numerics) {
   std::string text;
-  for (const auto& [module, version] : header.numerics)
+  for (const auto& [module, version] : numerics)
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", module, version);
   return text;
 }

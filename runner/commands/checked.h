@@ -62,6 +62,6 @@ class CheckedCases {
 };
 
 /// Versions of the numerics that a run was made with: "grains=3 pile=1".
-std::string numerics_text(const store::RunHeader& header);
+std::string numerics_text(const std::vector<simulation::NumericsVersion>& numerics);
 
 }  // namespace seapile::commands

@@ -36,6 +36,10 @@ int trade(const TradeArguments& arguments) {
   const std::size_t metric = drawn_metric(arguments, *study.trade);
   const bool ablation = study.trade->kind == study::TradeKind::ablation;
   if (arguments.freeze) {
+    const study::Options& changed = arguments.options;
+    if (!changed.set.empty() || changed.seeds || !changed.fidelity.empty())
+      throw UsageError(
+          "--freeze: keeps the reference of the study as it is written, without --set, --seeds and --fidelity");
     fmt::print("{}\n", freeze(study, arguments.root).string());
     return execute::kDone;
   }

@@ -14,6 +14,7 @@
 #include "runner/store/finished.h"
 #include "runner/study/frozen_file.h"
 #include "runner/study/nearest.h"
+#include "solver/simulation/run.h"
 
 namespace seapile::commands {
 namespace {
@@ -53,6 +54,11 @@ present::VariantRun run_of(const study::FrozenRun& run, const std::vector<std::s
   return {"", values_of(run.metrics, asked), "", run.cpu_seconds, run.peak_memory_mb, run.steps};
 }
 
+/// Whether a reference was frozen with what a scene's numerics are today: its note ends with them.
+bool is_of_today(const study::Frozen& frozen, const scene::SceneSpec& scene) {
+  return frozen.made_with.ends_with(", " + numerics_text(simulation::numerics_versions(scene)));
+}
+
 /// Why there is no result, as briefly as that many runs can share it.
 std::string failure_of(const std::filesystem::path& root, const std::string& case_id) {
   const std::filesystem::path run = store::newest_run(root, case_id);
@@ -71,7 +77,7 @@ Traded traded(const study::Study& study, const std::filesystem::path& root, cons
   std::vector<present::TradedGroup>& groups = all.groups;
   const std::vector<std::string>& asked = study.trade->metrics;
   std::set<std::string> known;
-  std::size_t finished = 0, others = 0;
+  std::size_t finished = 0, others = 0, aged = 0;
   for (const study::Case& one : study.cases) {
     present::Labels labels = one.labels;
     std::string variant, seed;
@@ -99,6 +105,7 @@ Traded traded(const study::Study& study, const std::filesystem::path& root, cons
     }
     if (kept) {
       run = run_of(*kept, asked);
+      if (!is_of_today(*frozen, one.scene)) ++aged;
       if (result && hash_of(*result) != kept->state_hash) ++others;
     } else if (result) {
       run = run_of(*result, asked);
@@ -112,6 +119,11 @@ Traded traded(const study::Study& study, const std::filesystem::path& root, cons
   if (frozen)
     all.remarks.push_back(fmt::format("reference: frozen, {} runs, made with {}; own error: {}", frozen->runs.size(),
                                       frozen->made_with, frozen->own_error));
+  if (aged > 0)
+    all.remarks.push_back(
+        fmt::format("{} of the reference's runs were frozen with other versions of the numerics than "
+                    "today's: run them again and freeze them anew",
+                    aged));
   if (others > 0)
     all.remarks.push_back(
         fmt::format("{} of the reference's runs here end in another state than the frozen ones: other "
@@ -151,7 +163,7 @@ std::filesystem::path freeze(const study::Study& study, const std::filesystem::p
     if (frozen.made_with.empty())
       frozen.made_with =
           fmt::format("{}, {}, {}, commit {}{}, {}", made.compiler, made.flags, made.host_cpu, made.commit,
-                      made.dirty ? " with changes" : "", numerics_text(result->manifest.header));
+                      made.dirty ? " with changes" : "", numerics_text(result->manifest.header.numerics));
     study::FrozenRun run{
         one.id, result->manifest.seal, hash_of(*result), made.cpu_seconds, made.peak_memory_mb, steps_of(*result), {}};
     for (const auto& [name, value] : finite_metrics(*result))

@@ -74,14 +74,30 @@ const std::vector<T>& values(const std::vector<Array>& arrays, const std::string
   throw std::invalid_argument("the bed has no array " + name + " of the expected type");
 }
 
-/// The grains of a saturated scene at its start: the bed's packing, settled again under its weight in the fluid, so that
-/// wet and dry runs are of one packing. As arrays: what is built of them knows nothing of how they came to rest.
-std::vector<Array> immersed(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution) {
+/// f of a contact, to whose square its stiffness is proportional [1/s].
+double frequency(const grains::ContactSpec& contact) {
+  return contact.stiffness * static_cast<double>(contact.substeps) / contact.step;
+}
+
+bool is_soft(const grains::ContactSpec& contact) { return std::holds_alternative<grains::SoftMethod>(contact.method); }
+
+/// The grains of a scene at its start, where the bed's do not rest: the bed's packing, settled again on the scene's
+/// contacts and under its weight in the fluid, so that all runs are of one packing. As arrays: what is built of them
+/// knows nothing of how they came to rest.
+std::vector<Array> rested(const scene::SceneSpec& scene, const Bed& bed, const Execution& execution,
+                          const std::function<void()>& settling) {
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(bed.grains, scene.bed.grains.density), execution);
   sim.law.gravity = weight_in_fluid(scene);
   sim.law.twist = twist_of(scene.model);
+  std::optional<Easing> easing;
+  const grains::ContactSpec& before = scene.bed.preparation.contact;
+  const double ratio = frequency(before) / frequency(scene.contact);
+  if (has_other_contacts(scene) && ratio < 1) easing.emplace(ratio * scene.contact.stiffness);
   std::vector<Record> unused;
-  settle(sim, scene.bed.preparation.longest, execution.trying, unused, [](double) {});
+  const auto tell = [&](double) {
+    if (settling) settling();
+  };
+  settle(sim, scene.bed.preparation.longest, execution.trying, unused, tell, easing);
   return arrays_of(sim.grains);
 }
 
@@ -99,6 +115,11 @@ std::vector<Array> origins_of(const std::vector<Array>& state) {
 
 }  // namespace
 
+bool has_other_contacts(const scene::SceneSpec& scene) {
+  const grains::ContactSpec &bed = scene.bed.preparation.contact, &drive = scene.contact;
+  return scene.pile && is_soft(bed) && is_soft(drive) && std::abs(frequency(drive) / frequency(bed) - 1) > 1e-9;
+}
+
 Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double friction, const Execution& execution) {
   Simulation sim = enclosed(bed, bed.preparation.contact, std::move(grains), execution);
   sim.law.friction_grain = friction;
@@ -106,11 +127,11 @@ Simulation build_bed(const scene::BedSpec& bed, grains::Grains grains, double fr
 }
 
 Simulation build(const scene::SceneSpec& asked, const Bed& bed, const Execution& execution,
-                 const std::vector<Array>& resume_from) {
+                 const std::vector<Array>& resume_from, const std::function<void()>& settling) {
   const scene::SceneSpec scene = scene::as_built(asked);
-  const std::vector<Array> start = !scene.fluid          ? bed.grains
-                                   : resume_from.empty() ? immersed(scene, bed, execution)
-                                                         : origins_of(resume_from);
+  const std::vector<Array> start = !scene.fluid && !has_other_contacts(scene) ? bed.grains
+                                   : resume_from.empty()                      ? rested(scene, bed, execution, settling)
+                                                                              : origins_of(resume_from);
   Simulation sim = enclosed(scene.bed, scene.contact, grains_of(start, scene.bed.grains.density), execution);
   sim.law.gravity = weight_in_fluid(scene);
   sim.law.twist = twist_of(scene.model);

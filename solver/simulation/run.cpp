@@ -14,6 +14,7 @@ std::vector<NumericsVersion> numerics_versions(const scene::SceneSpec& scene) {
   if (scene.jet) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 2}};
   if (scene.basin) return {{"mesh", 1}, {"fluid", 2}, {"free_surface", 2}, {"basin", 1}};
   std::vector<NumericsVersion> versions = {{"grains", 3}, {"pile", 1}, {"bed", 1}, {"record", 2}};
+  if (has_other_contacts(scene)) versions.push_back({"rest", 1});
   if (scene.fluid)
     versions.insert(versions.end(), {{"mesh", 1}, {"fluid", 2}, {"free_surface", 2}, {"basin", 1}, {"coupling", 4}});
   return versions;
@@ -28,8 +29,16 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   std::vector<Array> state = resume_from;
   Measuring measuring = take_out(state);
   std::optional<Simulation> sim;
+  struct Stopped {};
   try {
-    sim = build(scene, bed, execution, state);
+    sim = build(scene, bed, execution, state, [&] {
+      if (hooks.stop && hooks.stop()) throw Stopped{};
+    });
+  } catch (const Stopped&) {
+    RunResult result;
+    result.outcome = Outcome::stopped;
+    result.reason = "stopped on request before its start: it settles anew";
+    return result;
   } catch (const std::system_error&) {  // the machine's trouble and not the scene's, such as no process for the mesher
     throw;
   } catch (const std::runtime_error& error) {  // it does not settle under water, or has no mesh

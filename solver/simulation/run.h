@@ -85,7 +85,8 @@ struct RunHooks {
   /// What is to be sealed: the state, from snapshot(), and what frames have measured (simulation/tip_measures.h). Writing
   /// it changes no bit of what follows.
   std::function<void(const std::vector<Array>&)> checkpoint;
-  /// Asked after each stretch: true stops the run, which is then `stopped` and resumable from a last checkpoint.
+  /// Asked after each stretch: true stops the run, which is then `stopped` and resumable from a last checkpoint. Asked
+  /// also while the grains settle before the start, where there is none yet.
   std::function<bool()> stop;
   /// Of a run that has diverged, after its last checkpoint, which is the last accepted state: the state that was
   /// rejected last, and why. Where a step could not be done at all it is the state from which it was tried.

@@ -34,13 +34,15 @@ double weight(const Simulation& sim) {
 class Settling {
  public:
   Settling(Simulation& sim, double longest, const Trying& trying, std::vector<Record>& records,
-           const std::function<void(double)>& progress)
+           const std::function<void(double)>& progress, const std::optional<Easing>& easing)
       : sim_(sim),
         longest_(longest),
         stretch_(trying.stretch > 0 ? trying.stretch : kStretch),
         reject_at_(trying.reject_at),
         records_(records),
         progress_(progress),
+        easing_(easing),
+        stiffness_(std::ldexp(sim.law.stiffness, sim.clock.halvings)),
         start_time_(sim.clock.time()),
         weight_(weight(sim)) {}
 
@@ -77,8 +79,18 @@ class Settling {
     steps_ = 0;
   }
 
+  /// Gives the contacts the stiffness that they have by now, k by (f h)^2.
+  void ease() {
+    if (!easing_) return;
+    const double share = std::min(1.0, (sim_.clock.time() + sim_.clock.size() - start_time_) / easing_->time);
+    const double from = 1 / (easing_->from * easing_->from), to = 1 / (stiffness_ * stiffness_);
+    const double whole = share < 1 ? 1 / std::sqrt(from + share * (to - from)) : stiffness_;
+    sim_.law.stiffness = std::ldexp(whole, -sim_.clock.halvings);
+  }
+
   void advance() {
     if (!attempts_.rejected() && may_grow(sim_.stepping, sim_.clock, 1)) set_halvings(sim_, sim_.clock.halvings - 1);
+    ease();
     const StepReport report = step(sim_);
     if (const Objection why = objection(sim_, report); !why.empty()) return reject(why);
     gather(sim_, report);
@@ -96,7 +108,8 @@ class Settling {
     records_.push_back(take_record(sim_));
     Settled& settled = now_.settled;
     settled = {sim_.clock.time() - start_time_, std::abs(records_.back().base_force / weight_ - 1), rms_speed(sim_)};
-    const bool rests = settled.rms_speed < kRestSpeed && settled.base_error < kRestBaseError;
+    const bool eased = !easing_ || settled.time >= easing_->time;
+    const bool rests = eased && settled.rms_speed < kRestSpeed && settled.base_error < kRestBaseError;
     now_.at_rest = rests ? now_.at_rest + 1 : 0;
     now_.until = sim_.clock.time() + kRecordTime;
     progress_(settled.time);
@@ -130,6 +143,8 @@ class Settling {
   std::int64_t stretch_, reject_at_;
   std::vector<Record>& records_;
   const std::function<void(double)>& progress_;
+  const std::optional<Easing>& easing_;
+  double stiffness_;  ///< f h of a whole step, at the end of the easing [-]
   double start_time_, weight_;
   Place now_;
 
@@ -144,8 +159,8 @@ class Settling {
 }  // namespace
 
 Settled settle(Simulation& sim, double longest, const Trying& trying, std::vector<Record>& records,
-               const std::function<void(double)>& progress) {
-  return Settling(sim, longest, trying, records, progress).run();
+               const std::function<void(double)>& progress, const std::optional<Easing>& easing) {
+  return Settling(sim, longest, trying, records, progress, easing).run();
 }
 
 }  // namespace seapile::simulation

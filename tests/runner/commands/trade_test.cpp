@@ -84,10 +84,23 @@ TEST_F(TradeCommand, AFrozenReferenceStandsForTheRunsAndIsNotChangedByHand) {
   EXPECT_EQ(again.out, measured);
   EXPECT_THAT(again.error, HasSubstr("reference: frozen, 1 runs"));
   EXPECT_THAT(again.error, Not(HasSubstr("another state")));
+  EXPECT_THAT(again.error, Not(HasSubstr("frozen with other")));
   const Finished elsewhere = place->run({"trade", "kept.json", "--store", "empty"});
   EXPECT_EQ(elsewhere.exit_code, 4) << "the other variants were never run";
   EXPECT_THAT(elsewhere.out, Not(HasSubstr("fine: 1 of 1 runs have no result")));
   EXPECT_THAT(elsewhere.out, HasSubstr("long: 1 of 1 runs have no result"));
+
+  for (const char* changed : {"--set=basin.viscosity=7", "--fidelity=draft"}) {
+    const Finished smaller = place->run({"trade", "kept.json", "--freeze", changed});
+    EXPECT_EQ(smaller.exit_code, 2) << changed;
+    EXPECT_THAT(smaller.error, HasSubstr("--freeze: keeps the reference of the study as it is written")) << changed;
+    EXPECT_EQ(content(file), text) << changed;
+  }
+
+  study::Frozen old = *study::read_frozen(file);
+  old.made_with.back() = '0';
+  place->write("frozen/waves.csv", study::frozen_text("waves", old));
+  EXPECT_THAT(place->run({"trade", "kept.json"}).error, HasSubstr("1 of the reference's runs were frozen with other"));
 
   study::Frozen moved = *study::read_frozen(file);
   moved.runs[0].state_hash = "0123456789abcdef";

@@ -8,7 +8,10 @@
 
 #include "solver/grains/body_contacts.h"
 #include "solver/grains/packing.h"
+#include "solver/simulation/objection.h"
+#include "solver/simulation/observe.h"
 #include "solver/simulation/state.h"
+#include "solver/simulation/step.h"
 #include "tests/support/scenes.h"
 
 namespace seapile::simulation {
@@ -62,6 +65,67 @@ TEST(Build, DepthCountsFromTheBedsSurface) {
   const Simulation sim = build(scene, bed, {});
   EXPECT_EQ(sim.surface, support::metric(bed.metrics, "surface"));
   EXPECT_EQ(sim.surface, grains::bed_surface({sim.grains.disc.data(), 300}, -0.4, 0.4));
+}
+
+/// A drive in steps of another size, whose contacts are stiffer or softer than the bed's in proportion to 1/h^2.
+scene::SceneSpec drive_on(double step, std::int64_t substeps) {
+  scene::SceneSpec scene = small_drive(300, 0.8, pile::FlatTip{});
+  scene.contact.step = step;
+  scene.contact.substeps = substeps;
+  return scene;
+}
+
+TEST(Build, OnContactsOfTheBedsStiffnessADriveStartsFromTheBedItself) {
+  for (const scene::SceneSpec& scene : {drive_on(5e-4, 10), drive_on(1e-3, 20)}) {
+    EXPECT_FALSE(has_other_contacts(scene));
+    const Bed& bed = settled(scene.bed);
+    EXPECT_EQ(compare(arrays_of(build(scene, bed, {}).grains), bed.grains), "");
+  }
+}
+
+/// What the grains of a drive do in its first 20 ms, in which its pile meets none.
+struct Start {
+  double kinetic = 0;  ///< largest energy [J/m]
+  double made = 0;     ///< by the contacts [J/m]
+  double overlap = 0;  ///< mean at the end [-]
+  double moved = 0;    ///< rms way of the grains from the bed to the start of the drive, across [m]
+};
+Start start_of(scene::SceneSpec scene, const Bed& bed) {
+  scene.pile->driving = pile::ConstantDriving{-0.1};
+  Simulation sim = build(scene, bed, {});
+  Start start;
+  const std::vector<double> place = support::values<double>(arrays_of(sim.grains), "grains/position"),
+                            before = support::values<double>(bed.grains, "grains/position");
+  for (std::size_t i = 0; i < place.size(); i += 2) start.moved += (place[i] - before[i]) * (place[i] - before[i]);
+  start.moved = std::sqrt(start.moved / static_cast<double>(sim.grains.count()));
+  while (sim.clock.time() < 0.02) {
+    gather(sim, step(sim));
+    const EnergyLevel now = energy_level(sim);
+    start.kinetic = std::max(start.kinetic, now.kinetic);
+    start.made = std::max(start.made, -now.dissipation);
+  }
+  start.overlap =
+      std::visit([&](const auto& system) { return overlaps(system, sim.grains, nullptr).mean; }, sim.contacts);
+  return start;
+}
+
+// Overlaps under the same weight go with 1/k, k with 1/h^2. What is left of a shock is compared with a bed that is put
+// on such contacts at once, as if it had come to rest on them.
+TEST(Build, OnOtherContactsTheBedIsBroughtToRestWithoutAShock) {
+  const Bed& bed = settled(drive_on(5e-4, 10).bed);
+  const Start own = start_of(drive_on(5e-4, 10), bed);
+  for (const auto& [step, substeps, stiffer, left] : {std::tuple{1.25e-4, 20, 64.0, 1e-3}, {2e-3, 10, 1.0 / 16, 0.2}}) {
+    scene::SceneSpec scene = drive_on(step, substeps);
+    EXPECT_TRUE(has_other_contacts(scene));
+    const Start eased = start_of(scene, bed);
+    EXPECT_NEAR(own.overlap / eased.overlap / stiffer, 1, 0.2) << stiffer;
+    scene.bed.preparation.contact = scene.contact;
+    const Start at_once = start_of(scene, bed);
+    std::printf("k x %g: %g and %g J/m in motion, %g and %g J/m made\n", stiffer, eased.kinetic, at_once.kinetic,
+                eased.made, at_once.made);
+    EXPECT_LT(eased.moved, 1e-4) << stiffer << ": by a shock 1.8e-4 m";
+    EXPECT_LT(eased.kinetic, left * at_once.kinetic) << stiffer;
+  }
 }
 
 TEST(Build, GrainsGoToTheSolversOrderAndBack) {

@@ -75,6 +75,9 @@ const std::vector<Scene>& drives() {
     spec.contact.solver = grains::Solver::brute_force;
     list.push_back(of_drive("brute force", spec));
     spec = dry(pile::FlatTip{});
+    spec.contact.substeps = 15;
+    list.push_back(of_drive("stiffer than its bed", spec));
+    spec = dry(pile::FlatTip{});
     spec.bed.grains.restitution = 0.3;
     list.push_back(of_drive("rebound", spec));
     spec = dry(pile::ConicalTip{});

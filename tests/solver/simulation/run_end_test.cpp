@@ -135,6 +135,19 @@ TEST(RunEnd, StopsOnRequestWithACheckpoint) {
   EXPECT_EQ(values<std::int64_t>(halted.state, "clock/step")[0], std::lround(halted.run.result.time / kStep));
 }
 
+TEST(RunEnd, StopsOnRequestWhileItsBedSettlesBeforeTheStart) {
+  scene::SceneSpec scene = drive_of_300(pile::FlatTip{});
+  scene.contact.substeps = 20;
+  RunHooks hooks;
+  int asked = 0;
+  hooks.stop = [&] { return ++asked == 3; };
+  hooks.checkpoint = [](const std::vector<Array>&) { ADD_FAILURE() << "there is nothing to go on from"; };
+  const RunResult result = run(scene, small_record(), settled(scene.bed), {}, {}, {}, hooks);
+  EXPECT_EQ(result.outcome, Outcome::stopped);
+  EXPECT_THAT(result.reason, HasSubstr("before its start"));
+  EXPECT_EQ(asked, 3);
+}
+
 /// What comes of a state that was tampered with.
 struct Resumed {
   Drive run;
@@ -221,8 +234,8 @@ TEST(RunEnd, ADivergedRunHandsOutItsLastGoodStateAndTheRejectedOne) {
   EXPECT_EQ(again.run.result.reason, after.run.result.reason) << "from there it goes the same way again";
 }
 
-// The topmost grain is put into another, by 30 % of a radius, where overlaps are taken back at 5 m/s: the contact throws
-// it off, in steps of any size, and accounts for it as dissipation below zero.
+// The topmost grain is put into another, by 30 % of a radius, where overlaps are taken back at 5 m/s: the contact
+// throws it off, in steps of any size, and accounts for it as dissipation below zero.
 TEST(RunEnd, EnergyThatNothingGaveEndsAsDiverged) {
   Halted halted = halted_after(0);
   halted.scene.pile->driving = pile::ConstantDriving{0.01};

@@ -189,6 +189,18 @@ TEST(NumericsVersions, ASaturatedSceneHasThoseOfADryOneAndOfTheFluid) {
   EXPECT_THAT(of_fluid, testing::ElementsAre("mesh", "fluid", "free_surface", "basin", "coupling"));
 }
 
+TEST(NumericsVersions, OnOtherContactsThanTheBedsADriveHasThoseOfItsRest) {
+  scene::SceneSpec scene = drive_of_300(pile::FlatTip{});
+  const auto has_rest = [&] {
+    return std::ranges::any_of(numerics_versions(scene), [](const auto& v) { return v.module == "rest"; });
+  };
+  EXPECT_FALSE(has_rest());
+  scene.contact.substeps = 20;
+  EXPECT_TRUE(has_rest());
+  scene.pile.reset();
+  EXPECT_FALSE(has_rest()) << "a bed alone";
+}
+
 TEST(NumericsVersions, ABasinHasThoseOfTheWaterAndItsOwn) {
   scene::SceneSpec scene;
   scene.basin.emplace();

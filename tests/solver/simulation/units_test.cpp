@@ -45,6 +45,7 @@ scene::SceneSpec in(const Units& units, scene::SceneSpec scene) {
   *scene.pile->depth *= length;
   std::get<pile::ConstantDriving>(scene.pile->driving).speed *= units.of("m/s");
   scene.contact.step *= units.time;
+  scene.bed.preparation.contact.step *= units.time;
   if (auto* method = std::get_if<grains::NonSmoothMethod>(&scene.contact.method)) {
     method->tolerance *= units.of("m/s");
     method->correction *= units.of("m/s");
