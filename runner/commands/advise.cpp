@@ -13,6 +13,7 @@
 #include "runner/present/work.h"
 #include "runner/study/measured_file.h"
 #include "runner/study/resolved.h"
+#include "solver/pile/pile.h"
 
 namespace seapile::commands {
 namespace {
@@ -58,11 +59,20 @@ Asked asked(const std::string& text) {
   return {known == kShort.end() ? name : known->second, percent ? share / 100 : share};
 }
 
+/// Whether the pile throws grains ahead of it: it goes faster than a grain falls by half its size, V^2 > g d, where a
+/// drive is no sequence of states at rest any more.
+bool is_fast(const scene::SceneSpec& scene) {
+  const double size = scene.bed.grains.radius.min + scene.bed.grains.radius.max;
+  const double speed = pile::largest_speed(scene.pile->driving);
+  return speed * speed > scene.bed.domain.gravity * size;
+}
+
 /// Scenes whose levels mean the same.
 std::string class_of(const scene::SceneSpec& scene) {
   if (scene.jet) return "jet";
   if (scene.basin) return scene.basin->pile ? "basin with a pile" : "wave";
-  return !scene.pile ? "bed" : scene.fluid ? "saturated drive" : "dry drive";
+  if (!scene.pile) return "bed";
+  return std::string(is_fast(scene) ? "fast " : "") + (scene.fluid ? "saturated drive" : "dry drive");
 }
 
 /// Whether a level is another way to compute, and not another scene.
@@ -193,7 +203,10 @@ bool tell(const std::string& name, const std::vector<const study::Case*>& cases,
   const present::MeasuredLevel& level = frontiers.front().levels[*advice.level];
   const auto variant = std::ranges::find(first->study.variants, level.name, &study::VariantText::name);
   fmt::print("  \"{}\": error {:+.2g} %, at most {:.2g} % (95 %), {} run{} of {}\n", level.name, 100 * level.error,
-             100 * advice.bound, level.runs, level.runs == 1 ? "" : "s", from);
+             100 * advice.bound, level.runs, level.runs == 1 ? "" : "s", fmt::join(advice.measured_in, ", "));
+  if (!advice.lacking_in.empty())
+    fmt::print("  not measured in {}; of what was measured everywhere none holds\n",
+               fmt::join(advice.lacking_in, ", "));
   fmt::print("  about {:.3g} CPU s in all, scaled from {:.3g} CPU s of the scene that was measured\n",
              advice.cpu_seconds, level.cpu_seconds);
   fmt::print("  runner run {}{}\n", file, level_line(*variant));

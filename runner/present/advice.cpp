@@ -16,9 +16,11 @@ Advice advise(const std::vector<MeasuredFrontier>& frontiers, const std::vector<
     if (!may_use[i]) continue;
     const MeasuredLevel& level = first.levels[i];
     double bound = level.bound;
+    std::vector<std::string> measured_in, lacking_in;
     bool complete = level.runs > 0 && level.runs == level.asked;
     for (const MeasuredFrontier& other : frontiers) {
       const auto found = std::ranges::find(other.levels, level.name, &MeasuredLevel::name);
+      (found == other.levels.end() ? lacking_in : measured_in).push_back(other.study);
       if (found == other.levels.end()) continue;
       complete = complete && found->runs == found->asked;
       if (!(found->bound <= bound)) bound = found->bound;  // also when it is none
@@ -28,7 +30,11 @@ Advice advise(const std::vector<MeasuredFrontier>& frontiers, const std::vector<
       advice.closest = i;
       advice.closest_bound = bound;
     }
-    if (bound <= tolerance && level.cpu_seconds < least) {
+    const bool everywhere = lacking_in.empty(), known_better = advice.level && advice.lacking_in.empty();
+    if (bound <= tolerance &&
+        (everywhere > known_better || (everywhere == known_better && level.cpu_seconds < least))) {
+      advice.measured_in = std::move(measured_in);
+      advice.lacking_in = std::move(lacking_in);
       least = level.cpu_seconds;
       advice.level = i;
       advice.bound = bound;

@@ -28,6 +28,7 @@ struct MeasuredFrontier {
 struct Advice {
   std::optional<std::size_t> level;  ///< of the first frontier; absent: none that was measured holds
   double bound = 0;                  ///< largest over the frontiers that have the level
+  std::vector<std::string> measured_in, lacking_in;  ///< frontiers that have the level, and others
   double cpu_seconds = 0;            ///< of the scene asked about, scaled by work
   /// Where none holds: the level with the smallest bound.
   std::optional<std::size_t> closest;
@@ -35,7 +36,8 @@ struct Advice {
 };
 
 /// The level of the first frontier with the least cost of those whose bound, in every frontier that has the level, is
-/// at most `tolerance`, and of whose runs all have a result. `may_use`: by the first frontier's levels; a level that
+/// at most `tolerance`, and of whose runs all have a result. One that all frontiers have goes before those that some
+/// lack, whatever it costs: less evidence is no advantage. `may_use`: by the first frontier's levels; a level that
 /// makes another scene is not for use. `work`: of the scene asked about.
 Advice advise(const std::vector<MeasuredFrontier>& frontiers, const std::vector<bool>& may_use, double tolerance,
               double work);

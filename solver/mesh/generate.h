@@ -37,9 +37,9 @@ struct NoAnswer : NoMesh {
 
 /// Triangulates the polygon (counterclockwise, without holes) with edges of about size(x) [m]. The same polygon and
 /// sizes give the same mesh, bit for bit, on one installation of Gmsh. Gmsh runs in a child process (in_child.h), in
-/// which `size` is called too: what that leaves in memory is lost. Where Gmsh crashes, does not answer in time, gives
-/// no mesh or one that check() refuses, it is tried once more with another seed. Throws NoMesh that says what went
-/// wrong, NoAnswer when that was the time, and std::system_error when there is no child to be had.
+/// which `size` is called too: what that leaves in memory is lost. Where Gmsh crashes, gives no mesh or one that
+/// check() refuses, it is tried once more with another seed. Throws NoMesh that says what went wrong, NoAnswer when
+/// there was none in time, and std::system_error when there is no child to be had.
 TriangleMesh generate(std::span<const Corner> polygon, const std::function<double(base::Vec2)>& size,
                       const Method& method = {});
 

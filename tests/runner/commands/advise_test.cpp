@@ -66,6 +66,25 @@ TEST_F(Advise, DoesNotGoByAblations) {
   EXPECT_THAT(place.run({"advise", "mine.json", "--tol", "frequency=2%"}).out, HasSubstr("nothing is known"));
 }
 
+// V^2 = g d at 0.55 m/s.
+TEST_F(Advise, DoesNotTellOfASlowPileWhatWasMeasuredOfAFastOne) {
+  const auto drive = [](const std::string& name, const std::string& speed, const std::string& more) {
+    return R"({"study": ")" + name + R"(", "base": {"pile": {"driving": {"constant": {"speed": ")" + speed +
+           R"("}}, "depth": "0.3 m"}})" + more + "}";
+  };
+  place.write("fine.json", drive("fine", "2 m/s", R"(, "variants": [{"name": "short", "set": {"contact.step": "1 ms"}},
+      {"name": "long", "set": {"contact.step": "2 ms"}}], "frontier": {"reference": "short", "of": ["tip_resistance_mean"]})"));
+  place.write("measured/fine.csv",
+              "variant,runs[-],asked[-],cpu[s],error:tip_resistance_mean.mean[%],bound:tip_resistance_mean[%]\n"
+              "short,8,8,20,,\nlong,8,8,2,1,1.5\n");
+  place.write("slow.json", drive("slow", "0.5 m/s", ""));
+  place.write("fast.json", drive("fast", "0.6 m/s", ""));
+  EXPECT_THAT(place.run({"advise", "slow.json", "--tol", "qc=5%"}).out,
+              HasSubstr("dry drive, 1 case: tip_resistance_mean within 5 %\n  no frontier"));
+  EXPECT_THAT(place.run({"advise", "fast.json", "--tol", "qc=5%"}).out,
+              HasSubstr("fast dry drive, 1 case: tip_resistance_mean within 5 %\n  \"long\""));
+}
+
 TEST_F(Advise, RefusesWhatIsNoToleranceAndRecordsThatAreNone) {
   for (const char* tolerance : {"qc", "=5%", "qc=-5%", "qc=five", "qc=5%x"}) {
     const Finished bad = place.run({"advise", "mine.json", "--tol", tolerance});

@@ -42,6 +42,18 @@ TEST(Advice, ALevelIsAsGoodAsInTheWorstOfItsScenes) {
   EXPECT_EQ(advise({frontier(), elsewhere}, kAll, 0.05, 1).level, 0u) << "nothing is known there";
 }
 
+TEST(Advice, WhatWasMeasuredInEverySceneGoesBeforeWhatIsKnownFromFewer) {
+  const MeasuredFrontier elsewhere{"holdout", {{"fine", 200, 0.02, 0.03, 8, 8}}, 1};
+  const Advice advice = advise({frontier(), elsewhere}, kAll, 0.05, 1);
+  EXPECT_EQ(advice.level, 0u) << "coarse is cheaper, and holds in the one scene that has it";
+  EXPECT_EQ(advice.measured_in, (std::vector<std::string>{"dry", "holdout"}));
+  EXPECT_TRUE(advice.lacking_in.empty());
+  const MeasuredFrontier worse{"holdout", {{"fine", 200, 0.02, 0.06, 8, 8}}, 1};
+  const Advice some = advise({frontier(), worse}, kAll, 0.05, 1);
+  EXPECT_EQ(some.level, 1u);
+  EXPECT_EQ(some.lacking_in, std::vector<std::string>{"holdout"});
+}
+
 TEST(Advice, LeavesOutWhatIsAnotherSceneAndWhatHasFailures) {
   EXPECT_EQ(advise({frontier()}, {true, false, true, true, true}, 0.05, 1).level, 0u);
   EXPECT_FALSE(advise({}, {}, 0.05, 1).level);

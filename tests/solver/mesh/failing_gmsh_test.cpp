@@ -33,7 +33,7 @@ std::string refusal(const std::function<double(base::Vec2)>& size, double patien
   return "";
 }
 
-TEST_F(FailingGmsh, AHangIsKilledAndTriedTwice) {
+TEST_F(FailingGmsh, AHangIsKilledAndNotTriedAgain) {
   Children children;
   const std::string why = refusal<NoAnswer>(
       [&](base::Vec2) -> double {
@@ -41,8 +41,8 @@ TEST_F(FailingGmsh, AHangIsKilledAndTriedTwice) {
         hang();
       },
       kShort);
-  EXPECT_EQ(why, "mesh: Gmsh did not answer within 0.2 s, and with another seed again");
-  EXPECT_EQ(children.count(), 2);
+  EXPECT_EQ(why, "mesh: Gmsh did not answer within 0.2 s");
+  EXPECT_EQ(children.count(), 1) << "the clock would choose the mesh";
 }
 
 TEST_F(FailingGmsh, ACrashIsTriedTwiceAndTheParentLives) {
@@ -86,19 +86,6 @@ TEST_F(FailingGmsh, WhatFailsOnceHasTheMeshOfTheNextSeed) {
   EXPECT_NE(second.position, generate(kSquare, even).position) << "the seed does nothing";
 }
 
-TEST_F(FailingGmsh, WhatHangsOnceIsMeshedAtTheSecondTry) {
-  Children children;
-  // Time enough for a mesh of fifty triangles, and no longer, as the test waits for the whole of it.
-  const TriangleMesh mesh = generate(kSquare,
-                                     [&](base::Vec2) {
-                                       if (children.number() == 1) hang();
-                                       return 0.2;
-                                     },
-                                     {.patience = 5});
-  EXPECT_EQ(children.count(), 2);
-  EXPECT_GT(mesh.triangles(), 10u);
-}
-
 TEST_F(FailingGmsh, AMeshIsMadeByOneChild) {
   Children children;
   generate(kSquare, [&](base::Vec2) { return 0.2 + 0 * children.number(); });
@@ -126,7 +113,7 @@ TEST_F(FailingGmsh, ABasinWhoseMeshHangsIsNotTriedInOtherWays) {
     hang();
   };
   EXPECT_THROW(basin_mesh(outline, size, 0, kShort), NoAnswer);
-  EXPECT_EQ(children.count(), 2);
+  EXPECT_EQ(children.count(), 1);
 }
 
 TEST_F(FailingGmsh, AnEndWithoutAnAnswerIsNoMesh) {
