@@ -79,6 +79,10 @@ double frequency(const grains::ContactSpec& contact) {
   return contact.stiffness * static_cast<double>(contact.substeps) / contact.step;
 }
 
+/// By how much more than in a drive contacts damp while a bed sinks on softer ones than its own: as a column the bed is
+/// close to critically damped then, and rests after a third of the time.
+constexpr double kSinkingDamping = 5;
+
 bool is_soft(const grains::ContactSpec& contact) { return std::holds_alternative<grains::SoftMethod>(contact.method); }
 
 /// The grains of a scene at its start, where the bed's do not rest: the bed's packing, settled again on the scene's
@@ -92,6 +96,7 @@ std::vector<Array> rested(const scene::SceneSpec& scene, const Bed& bed, const E
   std::optional<Easing> easing;
   const grains::ContactSpec& before = scene.bed.preparation.contact;
   const double ratio = frequency(before) / frequency(scene.contact);
+  if (has_other_contacts(scene) && ratio > 1) sim.law.damping *= kSinkingDamping;
   if (has_other_contacts(scene) && ratio < 1) easing.emplace(ratio * scene.contact.stiffness);
   std::vector<Record> unused;
   const auto tell = [&](double) {

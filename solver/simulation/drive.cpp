@@ -45,7 +45,7 @@ class Drive {
     begin_stretch();
     while (result_.outcome == Outcome::completed) {
       if (at_end() || stretch_is_over()) {
-        if (Objection why = stretch_objection(sim_, start_energy_); !why.empty()) {
+        if (Objection why = stretch_objection(sim_, start_energy_, trial_->start()); !why.empty()) {
           reject(std::move(why));
           continue;
         }

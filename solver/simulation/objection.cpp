@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "solver/grains/neighbours.h"
 #include "solver/simulation/bounds.h"
 
 namespace seapile::simulation {
@@ -84,7 +85,24 @@ Objection motion_objection(const EnergyLevel& now) {
   return {};
 }
 
-Objection stretch_objection(const Simulation& sim, const EnergyLevel& before) {
+double elastic_energy(const Simulation& sim, const std::vector<Array>& state) {
+  if (sim.law.nonsmooth) return 0;
+  const auto found = std::ranges::find(state, "grains/position", [](const Array& array) { return array.info.name; });
+  const auto& place = std::get<std::vector<double>>(found->values);
+  std::vector<grains::Disc> discs(sim.grains.disc.begin(),
+                                  sim.grains.disc.begin() + static_cast<std::ptrdiff_t>(sim.grains.count()));
+  for (std::size_t i = 0; i < discs.size(); ++i) discs[i].x = place[2 * i], discs[i].y = place[2 * i + 1];
+  const double omega = 2 * std::numbers::pi * sim.law.stiffness * sim.law.substeps / sim.law.step;
+  double sum = 0;
+  for (const auto [i, j] : grains::neighbour_pairs(discs, 0)) {
+    const double overlap =
+        discs[i].radius + discs[j].radius - std::hypot(discs[j].x - discs[i].x, discs[j].y - discs[i].y);
+    sum += overlap * overlap / (1 / sim.grains.mass[i] + 1 / sim.grains.mass[j]);
+  }
+  return 0.5 * omega * omega * sum;
+}
+
+Objection stretch_objection(const Simulation& sim, const EnergyLevel& before, const std::vector<Array>& start) {
   const EnergyLevel now = energy_level(sim);
   if (Objection why = motion_objection(now); !why.empty()) return why;
   const double overlap = std::visit(
@@ -96,12 +114,13 @@ Objection stretch_objection(const Simulation& sim, const EnergyLevel& before) {
 
   const double work = now.work - before.work, pushed = now.push_work - before.push_work,
                change = now.dissipation - before.dissipation,
-               taken = change < 0 ? 0 : change;  // Contacts take; what they make nothing gave.
+               taken = change < 0 ? 0 : change;  // Contacts take; what they make nothing gave, but for what they held.
   const double gained = now.kinetic - before.kinetic + now.potential - before.potential - work - pushed + taken;
   double weight = 0;
   for (const double m : sim.grains.mass) weight += m * sim.law.gravity;
   const double known = before.kinetic + std::abs(work) + std::abs(pushed) + taken;
-  if (!(gained <= kGainedEnergy * known + kGainedRise * weight * smallest_radius(sim)))
+  const double most = kGainedEnergy * known + kGainedRise * weight * smallest_radius(sim);
+  if (!(gained <= most) && !(gained <= most + elastic_energy(sim, start)))
     return {Cause::energy, "the grains have gained " + std::to_string(gained) + " J/m that nothing gave them"};
   return {};
 }

@@ -31,8 +31,13 @@ EnergyLevel energy_level(const Simulation& simulation);
 /// Every velocity and spin is finite.
 Objection motion_objection(const EnergyLevel& now);
 
-/// Of the end of a stretch that began with `before`: what is too costly for every step. Motion and spins are finite, no
-/// overlap is too large, and the grains have gained no energy that nothing has given them.
-Objection stretch_objection(const Simulation& simulation, const EnergyLevel& before);
+/// What soft contacts of grains hold as springs of stiffness m_c (2 pi f)^2, m_c = 1/(1/m_i + 1/m_j), in a state that
+/// snapshot() took of it [J/m]; 0 of non-smooth ones.
+double elastic_energy(const Simulation& simulation, const std::vector<Array>& state);
+
+/// Of the end of a stretch that began with `before` in `start`, from snapshot(): what is too costly for every step.
+/// Motion and spins are finite, no overlap is too large, and the grains have gained no energy that nothing has given
+/// them: neither the pile, nor the water, nor contacts beyond what they held.
+Objection stretch_objection(const Simulation& simulation, const EnergyLevel& before, const std::vector<Array>& start);
 
 }  // namespace seapile::simulation

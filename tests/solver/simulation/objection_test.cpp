@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "solver/basin/step.h"
 #include "solver/fluid/jet_in_time.h"
 #include "solver/simulation/bounds.h"
 #include "solver/simulation/build.h"
 #include "solver/simulation/settle.h"
+#include "solver/simulation/state.h"
 #include "tests/support/scenes.h"
 
 namespace seapile::simulation {
@@ -100,9 +102,10 @@ TEST(Objection, ASpinThatIsNoNumberIsSeenBeforeTheStretchIsAccepted) {
   scene.fluid.reset();
   Simulation sim = started(scene);
   const EnergyLevel before = energy_level(sim);
-  EXPECT_EQ(stretch_objection(sim, before).why, "");
+  const std::vector<Array> start = snapshot(sim);
+  EXPECT_EQ(stretch_objection(sim, before, start).why, "");
   std::visit([](auto& system) { system.motion(75).u = NAN; }, sim.contacts);
-  EXPECT_CAUSE(stretch_objection(sim, before), Cause::not_finite);
+  EXPECT_CAUSE(stretch_objection(sim, before, start), Cause::not_finite);
 }
 
 TEST(Objection, AFlowThatIsNoNumberIsSeenAtOnce) {
@@ -208,6 +211,26 @@ TEST(Objection, AFlowThatIsNotSolvedHasItsCause) {
   EXPECT_CAUSE(after_a_step(basin), Cause::flow);
 }
 
+// Two grains in touch, the second pushed into the first by a tenth of its radius.
+TEST(Objection, SoftContactsHoldTheEnergyOfTheirSprings) {
+  scene::SceneSpec scene = support::small_drive(150, 0.6, pile::FlatTip{});
+  Simulation sim = build(scene, support::settled(scene.bed), {});
+  const double rest = elastic_energy(sim, snapshot(sim));
+  grains::Disc &one = sim.grains.disc[0], &other = sim.grains.disc[1];
+  one.y = 5;
+  const double alone = elastic_energy(sim, snapshot(sim));
+  EXPECT_LE(alone, rest);
+  other.x = one.x + one.radius + 0.9 * other.radius;
+  other.y = one.y;
+  const double mass = 1 / (1 / sim.grains.mass[0] + 1 / sim.grains.mass[1]),
+               omega = 2 * std::numbers::pi * 0.125 / 5e-5;
+  const double held = 0.5 * mass * std::pow(omega * 0.1 * other.radius, 2);
+  EXPECT_NEAR(elastic_energy(sim, snapshot(sim)) / held, 1, 1e-3) << "beside it the bed's is small";
+  scene.contact.method = grains::NonSmoothMethod{};
+  Simulation rigid = build(scene, support::settled(scene.bed), {});
+  EXPECT_EQ(elastic_energy(rigid, snapshot(sim)), 0);
+}
+
 TEST(Objection, GrainsThatOverlapOrGainEnergyAreNotAccepted) {
   scene::SceneSpec scene = wet();
   scene.fluid.reset();
@@ -215,15 +238,16 @@ TEST(Objection, GrainsThatOverlapOrGainEnergyAreNotAccepted) {
   scene.contact.solver = grains::Solver::brute_force;  // it has no lists that a grain can be put past
   Simulation sim = started(scene);
   const EnergyLevel before = energy_level(sim);
+  const std::vector<Array> start = snapshot(sim);
   std::visit([](auto& system) { system.motion(75).vy = 3; }, sim.contacts);
-  EXPECT_CAUSE(stretch_objection(sim, before), Cause::energy);
+  EXPECT_CAUSE(stretch_objection(sim, before, start), Cause::energy);
   // No step leaves them as deep as that: it is their state that says so. One that leaves the other is not counted.
   std::visit([](auto& system) { system.motion(75).vy = 0; }, sim.contacts);
   grains::Disc& one = sim.grains.disc[75];
   one.x = sim.grains.disc[76].x;
   one.y = sim.grains.disc[76].y + 0.3 * one.radius;
   step(sim);
-  EXPECT_CAUSE(stretch_objection(sim, energy_level(sim)), Cause::overlap);
+  EXPECT_CAUSE(stretch_objection(sim, energy_level(sim), start), Cause::overlap);
 }
 
 }  // namespace
