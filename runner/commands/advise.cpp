@@ -13,7 +13,6 @@
 #include "runner/present/work.h"
 #include "runner/study/measured_file.h"
 #include "runner/study/resolved.h"
-#include "solver/pile/pile.h"
 
 namespace seapile::commands {
 namespace {
@@ -59,20 +58,12 @@ Asked asked(const std::string& text) {
   return {known == kShort.end() ? name : known->second, percent ? share / 100 : share};
 }
 
-/// Whether the pile throws grains ahead of it: it goes faster than a grain falls by half its size, V^2 > g d, where a
-/// drive is no sequence of states at rest any more.
-bool is_fast(const scene::SceneSpec& scene) {
-  const double size = scene.bed.grains.radius.min + scene.bed.grains.radius.max;
-  const double speed = pile::largest_speed(scene.pile->driving);
-  return speed * speed > scene.bed.domain.gravity * size;
-}
-
 /// Scenes whose levels mean the same.
 std::string class_of(const scene::SceneSpec& scene) {
   if (scene.jet) return "jet";
   if (scene.basin) return scene.basin->pile ? "basin with a pile" : "wave";
   if (!scene.pile) return "bed";
-  return std::string(is_fast(scene) ? "fast " : "") + (scene.fluid ? "saturated drive" : "dry drive");
+  return std::string(present::is_fast(scene) ? "fast " : "") + (scene.fluid ? "saturated drive" : "dry drive");
 }
 
 /// Whether a level is another way to compute, and not another scene.

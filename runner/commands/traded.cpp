@@ -8,13 +8,13 @@
 
 #include "runner/commands/checked.h"
 #include "runner/commands/command.h"
+#include "runner/execute/campaign.h"
 #include "runner/present/replicates.h"
 #include "runner/present/trade_table.h"
 #include "runner/store/durable.h"
 #include "runner/store/finished.h"
 #include "runner/study/frozen_file.h"
 #include "runner/study/nearest.h"
-#include "solver/simulation/run.h"
 
 namespace seapile::commands {
 namespace {
@@ -56,7 +56,7 @@ present::VariantRun run_of(const study::FrozenRun& run, const std::vector<std::s
 
 /// Whether a reference was frozen with what a scene's numerics are today: its note ends with them.
 bool is_of_today(const study::Frozen& frozen, const scene::SceneSpec& scene) {
-  return frozen.made_with.ends_with(", " + numerics_text(simulation::numerics_versions(scene)));
+  return frozen.made_with.ends_with(", " + numerics_text(execute::todays_numerics(scene)));
 }
 
 /// Why there is no result, as briefly as that many runs can share it.

@@ -25,6 +25,10 @@ store::StudyEntry entry_of(const study::Study& study) {
   return entry;
 }
 
+std::vector<simulation::NumericsVersion> todays_numerics(const scene::SceneSpec& scene) {
+  return simulation::numerics_versions(scene);
+}
+
 bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene) {
   const std::vector<simulation::NumericsVersion> today = simulation::numerics_versions(scene);
   return std::ranges::is_permutation(versions, today, [](const auto& one, const auto& other) {

@@ -32,6 +32,9 @@ struct CaseOutcome {
 /// What the catalogue knows of a study.
 store::StudyEntry entry_of(const study::Study& study);
 
+/// The numerics that a scene is computed with today.
+std::vector<simulation::NumericsVersion> todays_numerics(const scene::SceneSpec& scene);
+
 /// Whether versions are today's of a scene.
 bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene);
 

@@ -16,4 +16,10 @@ double work_of(const scene::SceneSpec& scene) {
   return static_cast<double>(scene.bed.grains.count) * time;
 }
 
+bool is_fast(const scene::SceneSpec& scene) {
+  const double size = scene.bed.grains.radius.min + scene.bed.grains.radius.max;
+  const double speed = pile::largest_speed(scene.pile->driving);
+  return speed * speed > scene.bed.domain.gravity * size;
+}
+
 }  // namespace seapile::present
