@@ -70,7 +70,8 @@ std::vector<Metric> water_metrics(std::span<const Record> records, std::span<con
       "mean force of the fluid on all grains without buoyancy, 0.2-1.2 m");
   add("lowest_porosity", smallest(flow, &FlowRecord::lowest_porosity), "-", "smallest porosity before it is cut off");
   add("clipped_volume_max", largest(flow, &FlowRecord::clipped_volume), "m2", "largest area that it is cut off by");
-  add("volume_error_max", largest(flow, &FlowRecord::volume_error), "-", "largest change of the mixture's volume");
+  if (water.basin.spec.surface)  // below an open top water flows in and out
+    add("volume_error_max", largest(flow, &FlowRecord::volume_error), "-", "largest change of the mixture's volume");
   add("element_ratio_min", smallest(flow, &FlowRecord::element_ratio), "-",
       "shortest edge of the mesh over the largest diameter of a grain");
   add("lowest_shape", smallest(flow, &FlowRecord::lowest_shape), "-", "smallest shape quality at a record");

@@ -85,6 +85,15 @@ TEST(SaturatedRun, KeepsTheVolumeOfTheMixtureThroughAPenetrationWithARemesh) {
   for (const FlowRecord& r : all.flow_records) EXPECT_NEAR(r.immersed, 1, 1e-5);
 }
 
+TEST(SaturatedRun, BelowAnOpenTopNoVolumeIsKeptAndNoneIsTold) {
+  scene::SceneSpec scene = wet();
+  scene.fluid->surface.reset();
+  scene.pile->depth = 0.02;
+  const Told all = told(scene);
+  EXPECT_EQ(all.result.outcome, Outcome::completed) << all.result.reason;
+  EXPECT_TRUE(std::ranges::none_of(all.result.metrics, [](const Metric& m) { return m.name == "volume_error_max"; }));
+}
+
 /// Impulses on the grains, and what they have gained by them, over the sum of their magnitudes.
 double lost_momentum(Simulation& sim, int steps) {
   const auto momentum = [&] {
