@@ -113,12 +113,13 @@ Objection stretch_objection(const Simulation& sim, const EnergyLevel& before, co
   if (Objection why = overlap_objection(sim, overlap); !why.empty()) return why;
 
   const double work = now.work - before.work, pushed = now.push_work - before.push_work,
-               change = now.dissipation - before.dissipation,
-               taken = change < 0 ? 0 : change;  // Contacts take; what they make nothing gave, but for what they held.
+               change = now.dissipation - before.dissipation;
+  // Soft contacts take; what they make nothing gave, but for what they held. Non-smooth ones put apart what overlaps.
+  const double taken = !sim.law.nonsmooth && change < 0 ? 0 : change;
   const double gained = now.kinetic - before.kinetic + now.potential - before.potential - work - pushed + taken;
   double weight = 0;
   for (const double m : sim.grains.mass) weight += m * sim.law.gravity;
-  const double known = before.kinetic + std::abs(work) + std::abs(pushed) + taken;
+  const double known = before.kinetic + std::abs(work) + std::abs(pushed) + std::abs(taken);
   const double most = kGainedEnergy * known + kGainedRise * weight * smallest_radius(sim);
   if (!(gained <= most) && !(gained <= most + elastic_energy(sim, start)))
     return {Cause::energy, "the grains have gained " + std::to_string(gained) + " J/m that nothing gave them"};

@@ -37,7 +37,7 @@ double elastic_energy(const Simulation& simulation, const std::vector<Array>& st
 
 /// Of the end of a stretch that began with `before` in `start`, from snapshot(): what is too costly for every step.
 /// Motion and spins are finite, no overlap is too large, and the grains have gained no energy that nothing has given
-/// them: neither the pile, nor the water, nor contacts beyond what they held.
+/// them: neither the pile, nor the water, nor soft contacts beyond what they held.
 Objection stretch_objection(const Simulation& simulation, const EnergyLevel& before, const std::vector<Array>& start);
 
 }  // namespace seapile::simulation

@@ -241,6 +241,12 @@ TEST(Objection, GrainsThatOverlapOrGainEnergyAreNotAccepted) {
   const std::vector<Array> start = snapshot(sim);
   std::visit([](auto& system) { system.motion(75).vy = 3; }, sim.contacts);
   EXPECT_CAUSE(stretch_objection(sim, before, start), Cause::energy);
+  // What soft contacts say that they made is no better; non-smooth ones put apart what overlaps.
+  sim.totals.dissipation -= energy_level(sim).kinetic - before.kinetic;
+  EXPECT_CAUSE(stretch_objection(sim, before, start), Cause::energy);
+  sim.law.nonsmooth.emplace();
+  EXPECT_EQ(stretch_objection(sim, before, start).why, "");
+  sim.law.nonsmooth.reset();
   // No step leaves them as deep as that: it is their state that says so. One that leaves the other is not counted.
   std::visit([](auto& system) { system.motion(75).vy = 0; }, sim.contacts);
   grains::Disc& one = sim.grains.disc[75];

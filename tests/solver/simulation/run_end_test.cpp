@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "solver/simulation/build.h"
+#include "solver/simulation/drive.h"
 #include "solver/simulation/run.h"
 #include "tests/support/scenes.h"
 
@@ -234,32 +236,22 @@ TEST(RunEnd, ADivergedRunHandsOutItsLastGoodStateAndTheRejectedOne) {
   EXPECT_EQ(again.run.result.reason, after.run.result.reason) << "from there it goes the same way again";
 }
 
-// The topmost grain is put into another, by 30 % of a radius, where overlaps are taken back at 5 m/s: the contact
-// throws it off, in steps of any size, and accounts for it as dissipation below zero.
+// At each record a grain is kicked, in steps of any size.
 TEST(RunEnd, EnergyThatNothingGaveEndsAsDiverged) {
-  Halted halted = halted_after(0);
-  halted.scene.pile->driving = pile::ConstantDriving{0.01};
-  halted.scene.pile->depth.reset();
-  halted.scene.pile->duration = 0.1;
-  halted.scene.contact.method = grains::NonSmoothMethod{100, 0, 5};
-  EXPECT_EQ(resumed(halted, halted.state).run.result.outcome, Outcome::completed);
-  std::vector<double> place = values<double>(halted.state, "grains/position");
-  const std::vector<double>& radius = values<double>(halted.state, "grains/radius");
-  std::size_t top = 0, below = radius.size();
-  for (std::size_t i = 1; i < radius.size(); ++i)
-    if (place[2 * i + 1] > place[2 * top + 1]) top = i;
-  const auto gap = [&](std::size_t i) {
-    return std::hypot(place[2 * i] - place[2 * top], place[2 * i + 1] - place[2 * top + 1]) - radius[i] - radius[top];
-  };
-  for (std::size_t i = 0; i < radius.size(); ++i)
-    if (i != top && (below == radius.size() || gap(i) < gap(below))) below = i;
-  const double sunk = gap(below) + 0.3 * radius[top];
-  const Resumed after = resumed_with(halted, "grains/position", 2 * top + 1, place[2 * top + 1] - sunk);
-  EXPECT_EQ(after.run.result.outcome, Outcome::diverged);
-  EXPECT_THAT(after.run.result.reason, HasSubstr("J/m that nothing gave them"));
-  EXPECT_EQ(metric(after.run.result.metrics, "steps_rejected_energy"), 9) << "a stretch's last step, and its halvings";
-  EXPECT_EQ(metric(after.run.result.metrics, "steps_rejected"), 9);
-  EXPECT_FALSE(after.rejected.empty());
+  const scene::SceneSpec scene = drive_of_300(pile::FlatTip{});
+  Simulation sim = build(scene, settled(scene.bed), {});
+  std::vector<Array> sealed, rejected;
+  RunHooks hooks;
+  hooks.progress = [&](const Progress&) { std::visit([](auto& system) { system.motion(75).vy = 5; }, sim.contacts); };
+  hooks.checkpoint = [&](const std::vector<Array>& state) { sealed = state; };
+  hooks.post_mortem = [&](const std::vector<Array>& state, const std::string&) { rejected = state; };
+  const scene::RecordSpec record = small_record();
+  const RunResult result = simulation::drive(sim, scene, record, {}, {}, {}, hooks);
+  EXPECT_EQ(result.outcome, Outcome::diverged);
+  EXPECT_THAT(result.reason, HasSubstr("J/m that nothing gave them"));
+  EXPECT_GE(metric(result.metrics, "steps_rejected_energy"), 9) << "a stretch's last step, and its halvings";
+  EXPECT_FALSE(sealed.empty());
+  EXPECT_FALSE(rejected.empty());
 }
 
 TEST(RunEnd, AStateOfAnotherBedIsRefused) {
