@@ -44,7 +44,7 @@ struct FluidFidelity {
 };
 constexpr std::array kFluidFidelities = {
     FluidFidelity{1e-4, 1e-5},
-    FluidFidelity{4e-3, 1e-3},
+    FluidFidelity{8e-3, 1e-2},
     FluidFidelity{1e-3, 1e-5},
     FluidFidelity{5e-4, 1e-8},
 };
