@@ -190,7 +190,7 @@ TEST_F(Expand, FidelityFillsTheFluidOfSaturatedCasesAndMakesNone) {
   EXPECT_EQ(thesis.time.step, 1e-4);
   EXPECT_EQ(thesis.coupling.drag.porosity, coupling::DragPorosity::plane);
   EXPECT_EQ(thesis.coupling.porosity.kernel, coupling::Kernel::hat);
-  EXPECT_EQ(cases("draft")[1].scene.fluid->time.step, 4e-3);
+  EXPECT_EQ(cases("draft")[1].scene.fluid->time.step, 8e-3);
   EXPECT_EQ(cases("reference")[1].scene.fluid->time.step, 5e-4);
   EXPECT_EQ(*cases("standard")[1].scene.fluid, scene::FluidSpec{}) << "what is usual";
 }
