@@ -30,14 +30,14 @@ std::vector<simulation::NumericsVersion> todays_numerics(const scene::SceneSpec&
 }
 
 bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene) {
-  const std::vector<simulation::NumericsVersion> today = simulation::numerics_versions(scene);
+  const std::vector<simulation::NumericsVersion> today = todays_numerics(scene);
   return std::ranges::is_permutation(versions, today, [](const auto& one, const auto& other) {
     return one.module == other.module && one.version == other.version;
   });
 }
 
 Campaign::Campaign(const study::Study& study, CampaignOptions options)
-    : study_(study), options_(std::move(options)), numerics_(simulation::numerics_versions) {
+    : study_(study), options_(std::move(options)), numerics_(todays_numerics) {
   options_.sharing.cores = usable_cores();
   plan_ = make_plan(study_, numerics_, [this](const std::string& id) { return read_history(options_.root, id); });
 }

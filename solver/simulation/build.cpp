@@ -94,10 +94,13 @@ std::vector<Array> rested(const scene::SceneSpec& scene, const Bed& bed, const E
   sim.law.gravity = weight_in_fluid(scene);
   sim.law.twist = twist_of(scene.model);
   std::optional<Easing> easing;
-  const grains::ContactSpec& before = scene.bed.preparation.contact;
-  const double ratio = frequency(before) / frequency(scene.contact);
-  if (has_other_contacts(scene) && ratio > 1) sim.law.damping *= kSinkingDamping;
-  if (has_other_contacts(scene) && ratio < 1) easing.emplace(ratio * scene.contact.stiffness);
+  if (has_other_contacts(scene)) {
+    const double ratio = frequency(scene.bed.preparation.contact) / frequency(scene.contact);
+    if (ratio < 1)
+      easing.emplace(ratio * scene.contact.stiffness);
+    else
+      sim.law.damping *= kSinkingDamping;
+  }
   std::vector<Record> unused;
   const auto tell = [&](double) {
     if (settling) settling();

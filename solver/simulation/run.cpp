@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "solver/simulation/build.h"
 #include "solver/simulation/drive.h"
@@ -30,22 +32,22 @@ RunResult run(const scene::SceneSpec& scene, const scene::RecordSpec& record, co
   Measuring measuring = take_out(state);
   std::optional<Simulation> sim;
   struct Stopped {};
+  const auto ended = [](Outcome outcome, std::string reason) {
+    RunResult result;
+    result.outcome = outcome;
+    result.reason = std::move(reason);
+    return result;
+  };
   try {
     sim = build(scene, bed, execution, state, [&] {
       if (hooks.stop && hooks.stop()) throw Stopped{};
     });
   } catch (const Stopped&) {
-    RunResult result;
-    result.outcome = Outcome::stopped;
-    result.reason = "stopped on request before its start: it settles anew";
-    return result;
+    return ended(Outcome::stopped, "stopped on request before its start: it settles anew");
   } catch (const std::system_error&) {  // the machine's trouble and not the scene's, such as no process for the mesher
     throw;
   } catch (const std::runtime_error& error) {  // it does not settle under water, or has no mesh
-    RunResult result;
-    result.outcome = Outcome::diverged;
-    result.reason = error.what();
-    return result;
+    return ended(Outcome::diverged, error.what());
   }
   for (const PlacesBefore& before : measuring.open)
     if (before.grain.size() != sim->grains.count())
