@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/execute/pool.h"
 #include "runner/present/table.h"
 #include "runner/store/catalogue.h"
 #include "runner/study/study.h"
@@ -18,6 +19,8 @@ namespace seapile::commands {
 using Call = std::function<int()>;
 
 void add_run(CLI::App& app, Call& call);
+void add_plan(CLI::App& app, Call& call);
+void add_status(CLI::App& app, Call& call);
 void add_query(CLI::App& app, Call& call);
 void add_curve(CLI::App& app, Call& call);
 void add_figure(CLI::App& app, Call& call);
@@ -43,6 +46,9 @@ void add_where_option(CLI::App& command, std::vector<std::string>& where);
 
 /// Adds `--set` and `--seeds`, what the command line changes in a study.
 void add_study_options(CLI::App& command, study::Options& options);
+
+/// Adds `--jobs`, `--threads`, `--memory` and `--oversubscribe`: how this machine is shared out among cases.
+void add_sharing_options(CLI::App& command, execute::Sharing& sharing);
 
 /// Adds `--format`.
 void add_format_option(CLI::App& command, present::Format& format);

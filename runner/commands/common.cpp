@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 
@@ -28,6 +29,23 @@ void add_study_options(CLI::App& command, study::Options& options) {
       ->allow_extra_args(false);
   command.add_option("--fidelity", options.fidelity, "Level of fidelity, in place of the study's")->type_name("LEVEL");
   command.add_option("--seeds", options.seeds, "Repeat every case on N packings: bed.seed = 1..N")->type_name("N");
+}
+
+void add_sharing_options(CLI::App& command, execute::Sharing& sharing) {
+  command.add_option("-j,--jobs", sharing.jobs, "Cases at a time; default: the cores are shared out")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--threads", sharing.threads, "Threads per case; changes no bit of the results")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option_function<std::uint64_t>(
+          "--memory", [&sharing](const std::uint64_t& bytes) { sharing.memory_mb = static_cast<double>(bytes) / 1e6; },
+          "Memory of all running cases together, as in 800M or 12G; default: most of what is free now. By their "
+          "history; a case that needs more runs by itself")
+      ->type_name("SIZE")
+      ->transform(CLI::AsSizeValue(true));
+  command.add_flag("--oversubscribe", sharing.oversubscribe, "Let cases have more threads than there are cores");
 }
 
 void add_format_option(CLI::App& command, present::Format& format) {

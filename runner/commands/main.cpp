@@ -46,6 +46,8 @@ int run_program(int count, char** arguments) {
   app.require_subcommand(1);
   commands::Call call;
   commands::add_run(app, call);
+  commands::add_plan(app, call);
+  commands::add_status(app, call);
   commands::add_query(app, call);
   commands::add_curve(app, call);
   commands::add_figure(app, call);

@@ -175,12 +175,7 @@ void add_run(CLI::App& app, Call& call) {
   CLI::App* command = app.add_subcommand("run", "Run what a study lacks, and show its results");
   command->add_option("STUDY", arguments.study, "Study file")->required();
   add_study_options(*command, arguments.options);
-  command->add_option("-j,--jobs", campaign.sharing.jobs, "Cases at a time; default: the cores are shared out")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--threads", campaign.sharing.threads, "Threads per case; changes no bit of the results")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+  add_sharing_options(*command, campaign.sharing);
   command->add_option("--checkpoint", campaign.checkpoint_every, "Wall time between two checkpoints of a case [s]")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);

@@ -9,6 +9,8 @@
 
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/history.h"
+#include "runner/execute/notes.h"
+#include "runner/execute/price.h"
 #include "runner/execute/processes.h"
 #include "runner/execute/progress.h"
 #include "runner/execute/provenance.h"
@@ -18,6 +20,22 @@
 namespace seapile::execute {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kShownLogLines = 5;
+constexpr double kShareOfMemory = 0.9;  // of what is available, for all cases together
+
+/// Peak memory [MB] of a case's newest run; 0 when that cannot be told.
+double memory_of(const fs::path& root, const std::string& case_id) {
+  try {
+    return store::read_manifest(store::newest_run(root, case_id)).provenance.peak_memory_mb;
+  } catch (const store::StoreError&) {
+    return 0;
+  }
+}
+
+}  // namespace
 
 store::StudyEntry entry_of(const study::Study& study) {
   store::StudyEntry entry{study.name, study.question, study.file_sha256, {}};
@@ -39,6 +57,7 @@ bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, cons
 Campaign::Campaign(const study::Study& study, CampaignOptions options)
     : study_(study), options_(std::move(options)), numerics_(todays_numerics) {
   options_.sharing.cores = usable_cores();
+  if (!options_.sharing.memory_mb) options_.sharing.memory_mb = kShareOfMemory * available_memory_mb();
   plan_ = make_plan(study_, numerics_, [this](const std::string& id) { return read_history(options_.root, id); });
 }
 
@@ -51,9 +70,16 @@ int Campaign::carry_out() {
     watch.changed = [this, show = watch.changed](std::size_t task, State state, const std::string& why) {
       if (state == State::completed || state == State::diverged) ingest(plan_.tasks[task].id);
       show(task, state, why);
+      if (state == State::failed) note_failure(task, why);
+      if (state == State::failed || state == State::diverged) show_log(plan_.tasks[task].id);
     };
     const StoreView store = {[this](const std::string& id) { return read_history(options_.root, id); },
-                             [this](const std::string& id) { return is_claimed(options_.root, id); }};
+                             [this](const std::string& id) { return is_claimed(options_.root, id); },
+                             [this](const std::string& id) { return memory_of(options_.root, id); }};
+    const Prices prices = prices_of(study_, plan_, options_.root);
+    for (std::size_t i = 0; i < prices.size(); ++i) {
+      if (prices[i]) plan_.tasks[i].memory_mb = prices[i]->memory_mb;
+    }
     summary_ = execute::carry_out(plan_, study_, numerics_, options_.sharing, processes, store, watch);
   }
   const int code = exit_code(summary_);
@@ -103,6 +129,20 @@ void Campaign::announce() const {
     const fs::path run = store::case_folder(options_.root, task.id) / task.decision.run;
     if (catalogue.find(task.id) != run) catalogue.ingest(run);
   }
+}
+
+/// So that `runner status` can tell it later, where the run got as far as a folder.
+void Campaign::note_failure(std::size_t task, const std::string& why) const {
+  const fs::path run = unfinished_run(options_.root, plan_.tasks[task].id);
+  if (!run.empty()) write_failure(run, {"failed", why});
+}
+
+/// The last lines that the run itself wrote, below the line that says how it ended.
+void Campaign::show_log(const std::string& case_id) const {
+  fs::path run = unfinished_run(options_.root, case_id);
+  if (run.empty()) run = store::newest_run(options_.root, case_id);
+  if (run.empty()) return;
+  for (const std::string& line : last_log_lines(run, kShownLogLines)) fmt::print(stderr, "           | {}\n", line);
 }
 
 void Campaign::ingest(const std::string& case_id) {

@@ -56,6 +56,8 @@ class Campaign {
  private:
   void announce() const;
   void ingest(const std::string& case_id);
+  void note_failure(std::size_t task, const std::string& why) const;
+  void show_log(const std::string& case_id) const;
   Request request_for(const Task& task) const;
 
   const study::Study& study_;

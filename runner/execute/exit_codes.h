@@ -12,7 +12,7 @@ inline constexpr int kNothingMatched = 4;     ///< no such run, case or study
 inline constexpr int kStoreUnusable = 5;      ///< catalogue busy, damaged or newer than the program; store unwritable
 inline constexpr int kSchedulerRefused = 6;   ///< batch system absent or refusing
 inline constexpr int kStoppedResumable = 75;  ///< stopped early; the same command continues (EX_TEMPFAIL)
-inline constexpr int kInterrupted = 130;      ///< Ctrl-C; the same command continues (128 + SIGINT)
+inline constexpr int kInterrupted = 130;      ///< told to stop twice: no checkpoint was waited for (128 + SIGINT)
 
 // Of a worker, besides kDone and kStoppedResumable.
 inline constexpr int kBadRequest = 40;     ///< the request cannot be read, or names something that is not there

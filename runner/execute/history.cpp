@@ -1,7 +1,10 @@
 #include "runner/execute/history.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 
+#include <fstream>
 #include <system_error>
 
 #include "runner/execute/attempt.h"
@@ -47,20 +50,26 @@ PastRun read_past(const fs::path& run_folder, const std::string& run) {
 
 }  // namespace
 
+fs::path unfinished_run(const fs::path& root, const std::string& case_id) {
+  const fs::path folder = store::case_folder(root, case_id);
+  if (!fs::is_directory(folder)) return {};
+  const auto complete = store::complete_runs(folder);
+  const std::string open = store::next_run(folder, true);
+  const bool newer = complete.empty() || open > complete.back();
+  return newer && fs::is_directory(folder / open) ? folder / open : fs::path();
+}
+
 History read_history(const fs::path& root, const std::string& case_id) {
   History history;
   const fs::path folder = store::case_folder(root, case_id);
   if (!fs::is_directory(folder)) return history;
   const auto complete = store::complete_runs(folder);
   if (!complete.empty()) history.past = read_past(folder / complete.back(), complete.back());
-  const std::string open = store::next_run(folder, true);
-  const bool newer = complete.empty() || open > complete.back();
-  if (newer && fs::is_directory(folder / open)) {
+  if (const fs::path open = unfinished_run(root, case_id); !open.empty()) {
     InterruptedRun interrupted;
-    interrupted.run = open;
-    if (const auto attempt = read_attempt(folder / open)) {
-      interrupted.checkpoint =
-          fs::exists(folder / open / "checkpoint" / "a.h5") || fs::exists(folder / open / "checkpoint" / "b.h5");
+    interrupted.run = open.filename().string();
+    if (const auto attempt = read_attempt(open)) {
+      interrupted.checkpoint = fs::exists(open / "checkpoint" / "a.h5") || fs::exists(open / "checkpoint" / "b.h5");
       interrupted.numerics = attempt->numerics;
       interrupted.record = attempt->record;
       interrupted.bed_run = attempt->bed_run;
@@ -68,6 +77,21 @@ History read_history(const fs::path& root, const std::string& case_id) {
     history.interrupted = std::move(interrupted);
   }
   return history;
+}
+
+bool is_seen_claimed(const fs::path& root, const std::string& case_id) {
+  struct stat lock {};
+  if (::stat((store::case_folder(root, case_id) / "lock").c_str(), &lock) != 0) return false;
+  const std::string wanted =
+      fmt::format(" {:02x}:{:02x}:{} ", major(lock.st_dev), minor(lock.st_dev), lock.st_ino);  // as proc(5) writes it
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    // "->" stands before those who wait for the lock.
+    if (line.find("FLOCK") != std::string::npos && line.find("->") == std::string::npos &&
+        line.find(wanted) != std::string::npos)
+      return true;
+  }
+  return false;
 }
 
 bool is_claimed(const fs::path& root, const std::string& case_id) {

@@ -17,6 +17,7 @@
 #include "runner/execute/attempt.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/history.h"
+#include "runner/execute/notes.h"
 #include "runner/execute/plan.h"
 #include "runner/execute/provenance.h"
 #include "runner/store/run_folder.h"
@@ -95,12 +96,14 @@ class Job {
     fs::create_directories(folder_, error);
     send_errors_to(folder_ / "log.txt");
     if (const auto earlier = resumed ? read_attempt(folder_) : std::nullopt) attempt_ = *earlier;
+    resumed_ = resumed;
     ++attempt_.count;
     attempt_.numerics = header_.numerics;
     attempt_.bed_run = request_.bed_run;
     attempt_.record = record_of_runs(request_.record, request_.scene);
     earlier_ = {attempt_.cpu_seconds, attempt_.wall_seconds};
     write_attempt(folder_, attempt_);
+    remove_notes(folder_);
 
     store::RunWriter writer(folder_, header_);
     log("attempt {} of {} {}, {} threads", attempt_.count, request_.kind, request_.case_id, request_.threads);
@@ -207,6 +210,7 @@ class Job {
     made.attempts = attempt_.count;
     writer.finish(result, std::move(made), bed);
     remove_attempt(folder_);
+    remove_notes(folder_);
     if (result.outcome == Outcome::completed) return kDone;
     tell_(Trouble{result.reason});
     return kDiverged;
@@ -219,7 +223,11 @@ class Job {
   }
 
   void advance(const simulation::Progress& progress) {
-    if (second_.due()) tell_(Advanced{progress.fraction});
+    // A run that was resumed is first heard of where it goes on.
+    if (!start_fraction_) start_fraction_ = resumed_ ? progress.fraction : 0;
+    if (!second_.due()) return;
+    tell_(Advanced{progress.fraction});
+    write_progress(folder_, {progress.fraction, *start_fraction_, cost_so_far().wall_seconds, request_.threads, ""});
   }
 
   void note_cost() {
@@ -235,6 +243,8 @@ class Job {
   store::RunHeader header_;
   Attempt attempt_;
   Cost earlier_;
+  bool resumed_ = false;
+  std::optional<double> start_fraction_;
   Metronome second_{1};
   Metronome checkpoints_{request_.checkpoint_every};
 };

@@ -78,6 +78,7 @@ struct Task {
   std::string name;                ///< short and for people: "bed 3f2a90c1d4" or "pile.tip=flat"
   int most_threads = 1;            ///< with more its threads would mostly wait for each other
   Decision decision;
+  std::optional<double> memory_mb = {};  ///< that it is thought to need [MB]; absent: no history
 };
 
 /// Grains that keep one thread busy: below it a second one makes a case slower, on a busy machine by orders of

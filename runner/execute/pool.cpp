@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
+#include <map>
 #include <system_error>
 
 #include "runner/execute/exit_codes.h"
@@ -26,7 +26,8 @@ class Pool {
         store_(store),
         watch_(watch),
         retried_(plan.tasks.size()),
-        threads_(plan.tasks.size()) {
+        threads_(plan.tasks.size()),
+        memory_(plan.tasks.size()) {
     for (const Task& task : plan.tasks) {
       summary_.states.push_back(task.decision.action == Action::fresh ? State::fresh : State::waiting);
     }
@@ -35,13 +36,13 @@ class Pool {
 
   Summary run() {
     while (true) {
-      if (summary_.signal == 0) {
+      if (summary_.signals == 0) {
         look_elsewhere();
         promote();
         start_what_fits();
       }
       const bool pending = count(State::waiting) + count(State::ready) + count(State::elsewhere) > 0;
-      if (count(State::running) == 0 && (summary_.signal != 0 || !pending)) break;
+      if (count(State::running) == 0 && (summary_.signals != 0 || !pending)) break;
       if (const auto event = workers_.wait(kTick)) {
         std::visit([this](const auto& e) { handle(e); }, *event);
       }
@@ -111,12 +112,16 @@ class Pool {
     for (std::size_t i = 0; i < plan_.tasks.size(); ++i) {
       if (summary_.states[i] != State::ready) continue;
       int busy = 0;
+      double taken = 0;
       for (std::size_t k = 0; k < plan_.tasks.size(); ++k) {
-        if (summary_.states[k] == State::running) busy += threads_[k];
+        if (summary_.states[k] != State::running) continue;
+        busy += threads_[k];
+        taken += memory_[k];
       }
       const int threads =
           threads_for_next(sharing_, count(State::running), busy, count(State::ready), plan_.tasks[i].most_threads);
-      if (threads == 0) return;
+      memory_[i] = plan_.tasks[i].memory_mb.value_or(most_seen_[plan_.tasks[i].kind]);
+      if (threads == 0 || !memory_suffices(sharing_, taken, memory_[i])) return;
       try {
         workers_.start(i, plan_.tasks[i], threads);
       } catch (const std::system_error& error) {
@@ -137,8 +142,12 @@ class Pool {
     const std::size_t i = ended.task;
     const Verdict verdict = classify(ended.ending);
     const std::string why = in_words(ended.ending);
-    const bool stopping = summary_.signal != 0;
+    const bool stopping = summary_.signals != 0;
     if (verdict == Verdict::completed) {
+      if (store_.memory_mb) {
+        double& seen = most_seen_[plan_.tasks[i].kind];
+        seen = std::max(seen, store_.memory_mb(plan_.tasks[i].id));
+      }
       change(i, State::completed, "");
     } else if (verdict == Verdict::stopped || (stopping && verdict == Verdict::killed)) {
       change(i, State::stopped, why);
@@ -155,8 +164,7 @@ class Pool {
 
   void handle(const Signalled& signalled) {
     watch_.signalled(signalled.signal);
-    if (summary_.signal == 0) {
-      summary_.signal = signalled.signal;
+    if (++summary_.signals == 1) {
       workers_.ask_to_stop();
     } else {
       workers_.kill();
@@ -173,23 +181,30 @@ class Pool {
   Summary summary_;
   std::vector<bool> retried_;
   std::vector<int> threads_;
+  std::vector<double> memory_;        ///< that each was started with [MB]
+  std::map<Kind, double> most_seen_;  ///< of those that ended: what one without history is thought to need [MB]
 };
 
 }  // namespace
 
 std::string objection(const Sharing& sharing) {
   const long asked = static_cast<long>(sharing.jobs.value_or(1)) * sharing.threads.value_or(1);
-  if (asked <= sharing.cores) return "";
-  return fmt::format("{} jobs with {} threads each need {} cores, there are {}", sharing.jobs.value_or(1),
-                     sharing.threads.value_or(1), asked, sharing.cores);
+  if (asked <= sharing.cores || sharing.oversubscribe) return "";
+  return fmt::format("{} jobs with {} threads each need {} cores, there are {}; --oversubscribe runs them all the same",
+                     sharing.jobs.value_or(1), sharing.threads.value_or(1), asked, sharing.cores);
 }
 
 int threads_for_next(const Sharing& sharing, int running, int busy, int ready, int useful) {
   const int most = sharing.jobs.value_or(sharing.cores);
-  const int free = sharing.cores - busy;
+  const int cores = sharing.oversubscribe ? std::max(sharing.cores, most * sharing.threads.value_or(1)) : sharing.cores;
+  const int free = cores - busy;
   if (running >= most || free < 1 || ready < 1) return 0;
   if (sharing.threads) return free >= *sharing.threads ? *sharing.threads : 0;
   return std::clamp(free / std::min(ready, most - running), 1, useful);
+}
+
+bool memory_suffices(const Sharing& sharing, double taken, double wanted) {
+  return !sharing.memory_mb || taken == 0 || taken + wanted <= *sharing.memory_mb;
 }
 
 Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics, const Sharing& sharing,
@@ -198,8 +213,8 @@ Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numeric
 }
 
 int exit_code(const Summary& summary) {
-  if (summary.signal == SIGINT) return kInterrupted;
-  if (summary.signal != 0) return kStoppedResumable;
+  if (summary.signals > 1) return kInterrupted;
+  if (summary.signals > 0) return kStoppedResumable;
   const auto any = [&](auto... states) {
     return std::ranges::any_of(summary.states, [&](State state) { return ((state == states) || ...); });
   };

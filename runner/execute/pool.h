@@ -48,16 +48,22 @@ class Workers {
 
 struct Sharing {
   int cores = 1;
-  std::optional<int> jobs;     ///< cases at a time; absent: as many as are ready
-  std::optional<int> threads;  ///< per case; absent: the cores shared out
+  std::optional<int> jobs = {};          ///< cases at a time; absent: as many as are ready
+  std::optional<int> threads = {};       ///< per case; absent: the cores shared out
+  bool oversubscribe = false;            ///< more threads than cores are wanted
+  std::optional<double> memory_mb = {};  ///< that all running cases may have together [MB]; absent: no limit
 };
 
-/// What is wrong with a wish for more threads than there are cores; empty when nothing is.
+/// What is wrong with a wish for more threads than there are cores; empty when nothing is, or they are wanted.
 std::string objection(const Sharing& sharing);
 
 /// Threads for the next case to be started, 0 when it has to wait: `running` cases use `busy` cores, `ready` cases
 /// wait. Unless the user says otherwise, at most `useful` ones.
 int threads_for_next(const Sharing& sharing, int running, int busy, int ready, int useful);
+
+/// Whether a case that is thought to need `wanted` fits beside those that have `taken` [MB]. A case that needs more
+/// than there is runs by itself.
+bool memory_suffices(const Sharing& sharing, double taken, double wanted);
 
 enum class State {
   fresh,    ///< nothing to do
@@ -86,18 +92,20 @@ struct Watch {
 struct StoreView {
   Disk disk;
   std::function<bool(const std::string& case_id)> claimed;  ///< by a live process
+  /// Peak memory [MB] of a case's newest run; may be empty where nothing is known.
+  std::function<double(const std::string& case_id)> memory_mb = {};
 };
 
 struct Summary {
   std::vector<State> states;     ///< one per task
   std::vector<std::string> why;  ///< one per task: what went wrong, or empty
-  int signal = 0;                ///< first one that the runner received
+  int signals = 0;               ///< that the runner received: the first stops, the second kills
 };
 
 /// Runs everything that is not fresh, a drive after its bed. Updates the decisions of tasks that had to be planned
 /// again.
-Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics,
-                  const Sharing& sharing, Workers& workers, const StoreView& store, const Watch& watch);
+Summary carry_out(Plan& plan, const study::Study& study, const Numerics& numerics, const Sharing& sharing,
+                  Workers& workers, const StoreView& store, const Watch& watch);
 
 /// The exit code of the command.
 int exit_code(const Summary& summary);

@@ -4,6 +4,7 @@
 #include <gnu/libc-version.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -69,6 +70,15 @@ Cost cost_so_far() {
 
 double peak_memory_mb() {
   return static_cast<double>(std::max(usage(RUSAGE_SELF).ru_maxrss, usage(RUSAGE_CHILDREN).ru_maxrss)) / 1024;
+}
+
+double available_memory_mb() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string name, unit;
+  for (double kib = 0; meminfo >> name >> kib; std::getline(meminfo, unit)) {
+    if (name == "MemAvailable:") return kib * 1024 / 1e6;
+  }
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 int usable_cores() {

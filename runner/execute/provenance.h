@@ -24,6 +24,9 @@ Cost cost_so_far();
 /// Largest resident memory of this process, or of a child of its, so far [MB].
 double peak_memory_mb();
 
+/// Memory [MB] that could be had now without swapping.
+double available_memory_mb();
+
 /// Cores that this process may use.
 int usable_cores();
 

@@ -144,6 +144,26 @@ Path Catalogue::find(const std::string& prefix) const {
   });
 }
 
+std::vector<PastCost> Catalogue::costs() const {
+  return guarded(impl_->database.file(), [&] { return past_costs(impl_->database.sqlite()); });
+}
+
+std::optional<StudyEntry> Catalogue::entry(const std::string& study) const {
+  return guarded(impl_->database.file(), [&]() -> std::optional<StudyEntry> {
+    SQLite::Database& sqlite = impl_->database.sqlite();
+    SQLite::Statement known(sqlite, "SELECT study_id, question, file_sha256 FROM study WHERE name = ?");
+    known.bind(1, study);
+    if (!known.executeStep()) return {};
+    StudyEntry entry{study, known.getColumn(1).getString(), known.getColumn(2).getString(), {}};
+    SQLite::Statement cases(sqlite, "SELECT case_id, labels FROM study_case WHERE study_id = ? ORDER BY ordinal");
+    cases.bind(1, known.getColumn(0).getInt64());
+    while (cases.executeStep()) {
+      entry.cases.emplace_back(cases.getColumn(0).getString(), labels_from(cases.getColumn(1).getString()));
+    }
+    return entry;
+  });
+}
+
 std::vector<std::string> Catalogue::studies() const {
   return guarded(impl_->database.file(), [&] {
     std::vector<std::string> names;

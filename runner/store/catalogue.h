@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "runner/store/past_cost.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::store {
@@ -72,9 +74,9 @@ class Catalogue {
   /// "kind", "outcome", then the distinguishing labels, then `extra` (dotted parameter paths or metric names), or by
   /// default the first six metrics in the runs' own order. `where`: conditions, ANDed, "path op value" with op one of =
   /// != < <= > >= over parameters ("pile.driving.constant.speed", "bed.seed", "pile.tip"), metrics or "outcome"; values
-  /// are bound, never pasted. What a drive's bed is known by has "bed:" before its name ("bed:solid_fraction"), which no
-  /// path has; "bed:case" is the bed's case. Throws std::invalid_argument naming the nearest known name for an unknown
-  /// one.
+  /// are bound, never pasted. What a drive's bed is known by has "bed:" before its name ("bed:solid_fraction"), which
+  /// no path has; "bed:case" is the bed's case. Throws std::invalid_argument naming the nearest known name for an
+  /// unknown one.
   Table query(const std::string& study, const std::vector<std::string>& where,
               const std::vector<std::string>& extra) const;
 
@@ -85,6 +87,12 @@ class Catalogue {
   /// The run folder of the case whose id starts with `prefix`; empty path when none, throws std::invalid_argument when
   /// several.
   std::filesystem::path find(const std::string& prefix) const;
+
+  /// What the latest completed runs of each kind have cost, the latest first.
+  std::vector<PastCost> costs() const;
+
+  /// A study's cases as they were last planned; absent when it is not known.
+  std::optional<StudyEntry> entry(const std::string& study) const;
 
   /// Names of the studies known.
   std::vector<std::string> studies() const;

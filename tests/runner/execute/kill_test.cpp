@@ -265,7 +265,7 @@ TEST_F(KillTest, AWorkerWritesNothingOnceItsRunnerIsDead) {
 }
 
 TEST_F(KillTest, AStoppedStudyIsContinuedFromItsCheckpoints) {
-  for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 75)}) {
+  for (const auto& [signal, code] : {std::pair(SIGINT, 75), std::pair(SIGTERM, 75)}) {
     const Workplace place;
     place.write("small.json", small_study("small"));
     for (int stop = 0; stop < 3; ++stop) {

@@ -35,6 +35,7 @@ class FakeWorkers : public Workers {
   std::vector<Start> starts;
   std::map<int, int> signal_after;  ///< before the n-th wait (from 1), the runner receives this signal
   std::size_t most_at_once = 0;
+  std::vector<std::size_t> running_at_start;  ///< with the one that starts
   int most_cores = 0;
   bool asked = false, killed = false;
 
@@ -42,13 +43,14 @@ class FakeWorkers : public Workers {
     starts.push_back({what.id, threads});
     running_.push_back({task, what.id, threads});
     most_at_once = std::max(most_at_once, running_.size());
+    running_at_start.push_back(running_.size());
     int cores = 0;
     for (const auto& worker : running_) cores += worker.threads;
     most_cores = std::max(most_cores, cores);
   }
 
   std::optional<Event> wait(std::chrono::milliseconds) override {
-    if (++waits_ > 1000) throw std::logic_error("the pool never ends");
+    if (++waits_ > 5000) throw std::logic_error("the pool never ends");
     if (const auto signal = signal_after.find(waits_); signal != signal_after.end()) return Signalled{signal->second};
     if (running_.empty()) return std::nullopt;
     const Running worker = running_.front();
@@ -90,6 +92,7 @@ struct PoolTest : testing::Test {
   Plan plan;
   Sharing sharing{2, {}, {}};
   std::set<std::string> claimed;
+  double peak_mb = 0;  ///< of every case that has run
   std::vector<std::string> told;
   std::optional<FakeWorkers> workers;
 
@@ -108,7 +111,8 @@ struct PoolTest : testing::Test {
     watch.retried = [this](std::size_t task, const std::string&) { told.push_back(plan.tasks[task].id + " again"); };
     watch.signalled = [](int) {};
     watch.tick = [] {};
-    const StoreView store = {disk.look(), [this](const std::string& id) { return claimed.contains(id); }};
+    const StoreView store = {disk.look(), [this](const std::string& id) { return claimed.contains(id); },
+                             [this](const std::string&) { return peak_mb; }};
     return carry_out(plan, study, fake::numerics, sharing, *workers, store, watch);
   }
   State state(const Summary& summary, const std::string& id) const {
@@ -185,6 +189,63 @@ TEST(Sharing, MoreThreadsThanCoresAreRefused) {
   EXPECT_THAT(objection({4, 2, 3}), HasSubstr("need 6 cores, there are 4"));
   EXPECT_NE(objection({4, {}, 5}), "");
   EXPECT_NE(objection({4, 5, {}}), "");
+}
+
+TEST(Sharing, MoreThreadsThanCoresAreHadWhereTheyAreWanted) {
+  const Sharing sharing{.cores = 2, .jobs = 8, .oversubscribe = true};
+  EXPECT_EQ(objection(sharing), "");
+  EXPECT_EQ(threads_for_next(sharing, 7, 7, 100, 1), 1);
+  EXPECT_EQ(threads_for_next(sharing, 8, 8, 100, 1), 0);
+}
+
+TEST(Sharing, MemoryIsNeverPromisedTwice) {
+  const Sharing sharing{.cores = 8, .memory_mb = 1000};
+  EXPECT_TRUE(memory_suffices(sharing, 600, 400));
+  EXPECT_FALSE(memory_suffices(sharing, 600, 401));
+  EXPECT_TRUE(memory_suffices(sharing, 0, 5000)) << "what needs more than there is runs by itself";
+  EXPECT_TRUE(memory_suffices({.cores = 8}, 600, 1e9));
+}
+
+/// Fifty beds and two drives on each.
+study::Study wide_study() {
+  std::vector<std::pair<std::string, std::string>> cases;
+  for (int bed = 0; bed < 50; ++bed) {
+    const std::string name = "bed" + std::to_string(bed);
+    for (const char* tip : {"flat", "cone"}) cases.emplace_back(tip + std::to_string(bed), name);
+  }
+  return fake::make_study(cases);
+}
+
+TEST_F(PoolTest, CasesThatDoNotFitIntoMemoryTogetherRunOneAfterAnother) {
+  study = wide_study();
+  sharing = {.cores = 8, .memory_mb = 1000};
+  prepare();
+  for (Task& task : plan.tasks) task.memory_mb = 400;
+  go();
+  EXPECT_EQ(workers->most_at_once, 2U);
+  EXPECT_EQ(workers->starts.size(), 150U);
+}
+
+TEST_F(PoolTest, WhatEndedTellsWhatItsKindNeeds) {
+  study = wide_study();
+  sharing = {.cores = 4, .memory_mb = 1000};
+  peak_mb = 600;
+  go();
+  EXPECT_EQ(workers->starts.size(), 150U);
+  // The first four begin before anything is known of beds, and so do the first drives.
+  std::vector<std::size_t> later(workers->running_at_start.end() - 40, workers->running_at_start.end());
+  EXPECT_THAT(later, Each(1U));
+}
+
+TEST_F(PoolTest, EveryCaseOfManyIsDoneExactlyOnce) {
+  study = wide_study();
+  sharing = {.cores = 2, .jobs = 8, .oversubscribe = true};
+  go();
+  EXPECT_EQ(workers->most_at_once, 8U);
+  std::vector<std::string> ids = started();
+  EXPECT_EQ(ids.size(), 150U);
+  std::ranges::sort(ids);
+  EXPECT_EQ(std::ranges::adjacent_find(ids), ids.end());
 }
 
 TEST_F(PoolTest, AFailedCaseDoesNotStopTheStudy) {
@@ -281,7 +342,7 @@ TEST_F(PoolTest, ACaseThatAnotherRunnerGaveUpIsTakenOver) {
 }
 
 TEST_F(PoolTest, ASignalStopsTheWorkersAndStartsNoOthers) {
-  for (const auto& [signal, code] : {std::pair(SIGINT, kInterrupted), std::pair(SIGTERM, kStoppedResumable)}) {
+  for (const int signal : {SIGINT, SIGTERM}) {
     disk.histories.clear();
     prepare();
     workers->signal_after = {{1, signal}};
@@ -290,7 +351,7 @@ TEST_F(PoolTest, ASignalStopsTheWorkersAndStartsNoOthers) {
     EXPECT_FALSE(workers->killed);
     EXPECT_THAT(started(), ElementsAre("bed"));
     EXPECT_THAT(summary.states, Each(State::stopped));
-    EXPECT_EQ(exit_code(summary), code);
+    EXPECT_EQ(exit_code(summary), kStoppedResumable);
   }
 }
 
