@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // In pixels; the picture is drawn for a page's or a screen's column.
-constexpr int kWidth = 760, kHeight = 960;
+constexpr int kWidth = 760, kHeight = 960, kKeyLine = 20;
 constexpr std::size_t kTitleCharacters = 66;
 
 constexpr std::string_view kBandAlpha = "c4";  // nearly transparent: two bands may lie over each other
@@ -118,21 +118,29 @@ std::string band_title(const Figure& figure) {
   return fmt::format("mean of {} packings, {:g} % band", count, 100 * kLevel);
 }
 
-/// What the two kinds of line are.
-std::string note(const Figure& figure) {
+/// What the kinds of line are. The title of a normalised figure says how many packings there are.
+std::string note(const Figure& figure, const Axes& axes) {
   const bool replicated =
       std::ranges::any_of(figure.groups, [](const CurveGroup& group) { return group.packings.size() > 1; });
-  const std::string packing = replicated ? "" : " One packing of the grains.";
-  if (figure.groups.size() > kMostFaint) {
-    return fmt::format("Mean{} over {} m of depth.{}", replicated ? " of the packings" : "", kBinWidth, packing);
-  }
-  return fmt::format("Strong: mean{} over {} m of depth; faint: {}.{}", replicated ? " of the packings" : "", kBinWidth,
-                     replicated ? "each packing" : "every record", packing);
+  const std::string packing = replicated || axes.normalised ? "" : " One packing of the grains.";
+  const std::string site = figure.site.empty() ? "" : " Grey: measured in the field.";
+  const std::string mean = fmt::format("mean{} over {} m of depth", replicated ? " of the packings" : "", kBinWidth);
+  if (figure.groups.size() > kMostFaint) return fmt::format("M{}.{}{}", mean.substr(1), packing, site);
+  return fmt::format("Strong: {}; faint: {}.{}{}", mean, replicated ? "each packing" : "every record", packing, site);
+}
+
+/// How many lines a legend above the axes has. Normalised curves leave no room inside: near the surface they are wide.
+int legend_lines(const Figure& figure, const Axes& axes) {
+  if (!axes.normalised) return 0;
+  const auto labelled = std::ranges::count_if(figure.groups, [](const auto& group) { return !group.label.empty(); });
+  return static_cast<int>(labelled) + static_cast<int>(figure.site.size()) + (band_title(figure).empty() ? 0 : 1);
 }
 
 /// Title, note, axes and legend.
 std::string frame_of(const Figure& figure, const Axes& axes, const Reach& reach) {
-  auto [script, top] = heading(figure.title, note(figure), kWidth, kHeight, kTitleCharacters);
+  auto [script, top] = heading(figure.title, note(figure, axes), kWidth, kHeight, kTitleCharacters);
+  const int legend = top - kHeadingSide / 2 + 6;
+  top += legend_lines(figure, axes) * kKeyLine;
   script += fmt::format("set tmargin at screen {:.4f}\n", 1 - static_cast<double>(top + 66) / kHeight);
   script += fmt::format("set bmargin at screen {:.4f}\n", static_cast<double>(kHeadingSide) / kHeight);
   script += fmt::format("set lmargin at screen {:.4f}\n", 92.0 / kWidth);
@@ -145,8 +153,11 @@ std::string frame_of(const Figure& figure, const Axes& axes, const Reach& reach)
       "set x2tics out nomirror scale 0.6 tc rgb '#444444'\n"
       "set ytics out nomirror scale 0.6 tc rgb '#444444'\n"
       "set grid x2tics ytics back lt 1 lw 1 lc rgb '#e8e8e8'\n"
-      "set key top right inside reverse Left noenhanced opaque fc rgb '#ffffff' samplen 2.2 spacing 1.25 "
-      "tc rgb '#1a1a1a'\n";
+      "set key reverse Left noenhanced samplen 2.2 tc rgb '#1a1a1a'\n";
+  script += axes.normalised
+                ? fmt::format("set key at screen {:.4f},{:.4f} left top vertical maxcols 1\n",
+                              static_cast<double>(kHeadingSide) / kWidth, 1 - static_cast<double>(legend) / kHeight)
+                : "set key top right inside opaque fc rgb '#ffffff' spacing 1.25\n";
   script += fmt::format("set x2label \"{}\" offset 0,-0.5 tc rgb '#1a1a1a'\n", axes.across);
   script += fmt::format("set ylabel \"{}\" offset 1,0 tc rgb '#1a1a1a'\n", axes.down);
   if (axes.logarithmic) {
@@ -271,6 +282,6 @@ std::string gnuplot_script(const Figure& figure) {
   return script + blocks + "plot \\\n" + bands + faint + strong + "  NaN axes x2y1 notitle\n";
 }
 
-void draw(const Figure& figure, const fs::path& svg) { draw_with_gnuplot(gnuplot_script(figure), svg); }
+void draw(const Figure& figure, const fs::path& svg) { draw_with_gnuplot(gnuplot_script(figure), fs::absolute(svg)); }
 
 }  // namespace seapile::present
