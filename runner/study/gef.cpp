@@ -237,7 +237,7 @@ class GefReader {
     std::vector<std::string> fields = blanks ? words_of(record) : split(record, column_separator_);
     while (!fields.empty() && !fields.back().empty() && (fields.back().back() == '\n' || fields.back().back() == '\r'))
       fields.back().pop_back();
-    if (fields.size() == count_ + 1 && fields.back().empty()) fields.pop_back();  // A separator ends the last, too.
+    if (!fields.empty() && fields.back().empty()) fields.pop_back();  // A separator ends the last, too.
     if (fields.size() != count_) {
       refuse(line, fmt::format("has {} numbers", fields.size()), fmt::format("{}, as #COLUMN= says", count_));
       return;

@@ -54,8 +54,9 @@ struct Curve : testing::Test {
                        "grains": {"count": 250, "density": 2600, "radius": {"min": "0.012 m", "max": "0.02 m"}}},
                "pile": {"radius": "0.04 m", "tip": "flat", "driving": {"constant": {"speed": "0.4 m/s"}},
                         "depth": "0.2 m"}},
-      "axes": {"fluid": [null, {"density": 1000, "depth": "0.8 m", "mesh": {"size": "0.1 m", "pile_size": "0.06 m",
-                                "motion": {"zones": {"reach": "0.2 m"}}}}]},
+      "axes": {"fluid": [null, {"density": 1000}]},
+      "when": [{"if": {"fluid": {}}, "set": {"fluid.depth": "0.8 m", "fluid.mesh.size": "0.1 m",
+                "fluid.mesh.pile_size": "0.06 m", "fluid.mesh.motion": {"zones": {"reach": "0.2 m"}}}}],
       "replicates": {"seeds": 2}})");
     place->write("site.gef", kSite);
   }
