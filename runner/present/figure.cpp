@@ -138,11 +138,12 @@ int legend_lines(const Figure& figure, const Axes& axes) {
 
 /// Title, note, axes and legend.
 std::string frame_of(const Figure& figure, const Axes& axes, const Reach& reach) {
-  auto [script, top] = heading(figure.title, note(figure, axes), kWidth, kHeight, kTitleCharacters);
+  const int room = legend_lines(figure, axes) * kKeyLine, height = kHeight + room;
+  auto [script, top] = heading(figure.title, note(figure, axes), kWidth, height, kTitleCharacters);
   const int legend = top - kHeadingSide / 2 + 6;
-  top += legend_lines(figure, axes) * kKeyLine;
-  script += fmt::format("set tmargin at screen {:.4f}\n", 1 - static_cast<double>(top + 66) / kHeight);
-  script += fmt::format("set bmargin at screen {:.4f}\n", static_cast<double>(kHeadingSide) / kHeight);
+  top += room > 0 ? room + kKeyLine / 2 : 0;
+  script += fmt::format("set tmargin at screen {:.4f}\n", 1 - static_cast<double>(top + 66) / height);
+  script += fmt::format("set bmargin at screen {:.4f}\n", static_cast<double>(kHeadingSide) / height);
   script += fmt::format("set lmargin at screen {:.4f}\n", 92.0 / kWidth);
   script += fmt::format("set rmargin at screen {:.4f}\n", 1 - 36.0 / kWidth);
   script +=
@@ -156,7 +157,7 @@ std::string frame_of(const Figure& figure, const Axes& axes, const Reach& reach)
       "set key reverse Left noenhanced samplen 2.2 tc rgb '#1a1a1a'\n";
   script += axes.normalised
                 ? fmt::format("set key at screen {:.4f},{:.4f} left top vertical maxcols 1\n",
-                              static_cast<double>(kHeadingSide) / kWidth, 1 - static_cast<double>(legend) / kHeight)
+                              static_cast<double>(kHeadingSide) / kWidth, 1 - static_cast<double>(legend) / height)
                 : "set key top right inside opaque fc rgb '#ffffff' spacing 1.25\n";
   script += fmt::format("set x2label \"{}\" offset 0,-0.5 tc rgb '#1a1a1a'\n", axes.across);
   script += fmt::format("set ylabel \"{}\" offset 1,0 tc rgb '#1a1a1a'\n", axes.down);
