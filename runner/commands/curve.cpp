@@ -1,56 +1,39 @@
-#include "runner/present/series_figure.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "runner/commands/command.h"
+#include "runner/commands/curve_runs.h"
+#include "runner/commands/site.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/present/cpt_table.h"
+#include "runner/present/normalised.h"
+#include "runner/present/replicates.h"
+#include "runner/present/series_figure.h"
 #include "runner/store/catalogue.h"
 
 namespace seapile::commands {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr std::size_t kIdDigits = 10;  // of a case in the name of a file
+
 struct CurveArguments {
   std::string study, root = "results", out, against;
   std::vector<std::string> where, of;
-  bool bands = false;
+  bool bands = false, normalised = false, cpt = false;
+  SiteArguments site;
 };
 
-/// Runs with a series, all of the same.
-struct Found {
-  std::vector<present::CurveSource> sources;
-  present::Series series = present::Series::grains;
-  bool with_pile = false, without_pile = false;  ///< of basins
-};
-
-Found find(const CurveArguments& arguments, const std::string& study, const store::Catalogue& catalogue) {
-  Found drives, basins;
-  basins.series = present::Series::water;
-  for (const auto& [folder, labels] : usage_checked([&] { return catalogue.runs(study, arguments.where); })) {
-    const store::Manifest manifest = store::read_manifest(folder);
-    if (arguments.bands && manifest.result.outcome != simulation::Outcome::completed) continue;
-    const bool is_drive = manifest.header.kind == "drive", has_fluid = manifest.flow_records > 0;
-    const bool is_basin = has_fluid && !is_drive;
-    if (!is_drive && !is_basin) continue;
-    if (is_drive && has_fluid) drives.series = present::Series::both;
-    (is_drive ? drives : basins).sources.push_back({manifest.header.case_id, manifest.run, labels, folder});
-    const auto pile = std::ranges::find(manifest.header.parts, "pile", &simulation::Part::name);
-    const bool has_pile = pile != manifest.header.parts.end() && pile->built;
-    (has_pile ? basins.with_pile : basins.without_pile) |= is_basin;
-  }
-  if (drives.sources.empty()) return basins;
-  if (basins.sources.empty()) return drives;
-  throw UsageError("drives and basins have no columns in common: --where \"kind = drive\" or \"kind = flow\"");
-}
+bool is_picture(const CurveArguments& arguments) { return fs::path(arguments.out).extension() == ".svg"; }
 
 /// The columns that are asked for. Without a word, of a drive all, of both series in a saturated bed; of a
 /// basin the error of its volume, and the wave or the force on its pile, over time.
-std::vector<std::string> columns_of(const CurveArguments& arguments, const Found& found) {
+std::vector<std::string> columns_of(const CurveArguments& arguments, const CurveRuns& found) {
   const std::vector<std::string> known = present::column_names(found.series);
   const bool is_basin = found.series == present::Series::water;
   const bool all = arguments.of == std::vector<std::string>{"all"} || (!is_basin && arguments.of.empty());
@@ -76,17 +59,16 @@ std::vector<std::string> columns_of(const CurveArguments& arguments, const Found
   return columns;
 }
 
-void write(const Found& found, const std::vector<std::string>& columns, bool bands, std::FILE* out) {
-  bands ? present::write_bands(found.sources, out) : present::write_curves(found.sources, found.series, columns, out);
+/// CSV to the file that was named, or to standard output.
+void put(const CurveArguments& arguments, const std::function<void(std::FILE*)>& write) {
+  arguments.out.empty() ? write(stdout) : write_file(arguments.out, write);
 }
 
-/// The columns as a picture, the first of them as its abscissa.
-void draw(const Found& found, const std::vector<std::string>& columns, const std::string& title,
-          const std::string& svg) {
-  if (columns.size() < 2) throw UsageError("--out: a picture needs a column over another one");
-  if (columns.size() > 1 + present::kMostPanels)
-    throw UsageError(fmt::format("--out: a picture has at most {} columns; name them with --of", present::kMostPanels));
-  const auto figure = present::series_figure(title, found.sources, found.series, columns);
+void put(const CurveArguments& arguments, const std::string& text) {
+  put(arguments, [&](std::FILE* out) { std::fwrite(text.data(), 1, text.size(), out); });
+}
+
+void draw(const auto& figure, const std::string& svg) {
   try {
     present::draw(figure, svg);
   } catch (const store::StoreError& error) {
@@ -95,31 +77,112 @@ void draw(const Found& found, const std::vector<std::string>& columns, const std
   fmt::print("{}\n", svg);
 }
 
-int curve(const CurveArguments& arguments) {
+/// The columns as a picture, the first of them as its abscissa.
+void draw_columns(const CurveRuns& found, const std::vector<std::string>& columns, const std::string& title,
+                  const std::string& svg) {
+  if (columns.size() < 2) throw UsageError("--out: a picture needs a column over another one");
+  if (columns.size() > 1 + present::kMostPanels)
+    throw UsageError(fmt::format("--out: a picture has at most {} columns; name them with --of", present::kMostPanels));
+  draw(present::series_figure(title, found.sources, found.series, columns), svg);
+}
+
+/// The picture that a study ends with: depth downwards, packings of the same case together.
+present::Figure bands_figure(const CurveRuns& found, const std::string& title) {
+  present::Figure figure{title, {}};
+  for (const present::PackedCase& one : present::packed(found.sources)) {
+    present::CurveGroup group{present::legend_text(one.labels), {}};
+    for (const auto& source : one.packings) group.packings.push_back(present::read_resistance(source.run_folder));
+    figure.groups.push_back(std::move(group));
+  }
+  return figure;
+}
+
+/// Standard output takes the table of one run; files get one each.
+void write_cpt(const CurveArguments& arguments, const std::vector<present::CurveSource>& sources) {
+  const fs::path out = arguments.out;
+  if (out.empty()) {
+    if (sources.size() > 1) {
+      throw UsageError(
+          fmt::format("--cpt: {} runs match, and standard output takes one; give --out FILE.csv for a "
+                      "file of each, or --where",
+                      sources.size()));
+    }
+    fmt::print("{}", present::cpt_csv(present::cpt_table(sources.front())));
+    return;
+  }
+  const std::chrono::year_month_day today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  for (const present::CurveSource& source : sources) {
+    const present::CptTable table = present::cpt_table(source);
+    const std::string text = out.extension() == ".gef" ? present::cpt_gef(table, today) : present::cpt_csv(table);
+    const std::string id = sources.size() == 1 ? "" : "-" + source.case_id.substr(0, kIdDigits);
+    const fs::path file = out.parent_path() / (out.stem().string() + id + out.extension().string());
+    write_file(file, [&](std::FILE* stream) { std::fwrite(text.data(), 1, text.size(), stream); });
+    fmt::print("{}\n", file.string());
+  }
+}
+
+void write_normalised(const CurveArguments& arguments, const CurveRuns& found,
+                      const std::vector<present::SiteCurve>& site, const std::string& title) {
+  const auto runs = present::normalised(found.sources);
+  if (is_picture(arguments)) {
+    draw(present::normalised_figure(title, runs, site, arguments.bands), arguments.out);
+  } else {
+    put(arguments, arguments.bands ? present::normalised_bands_csv(runs, site) : present::normalised_csv(runs, site));
+  }
+}
+
+/// What does not fit together, before anything is read.
+void check(const CurveArguments& arguments) {
+  const fs::path out = arguments.out;
   if (arguments.bands && arguments.study.empty())
     throw UsageError("--bands needs a STUDY: its labels say which runs are packings of the same case");
+  if (!arguments.site.files.empty() && !arguments.normalised) {
+    throw UsageError(
+        "--overlay needs --normalised: a bed of discs and a site differ in size, weight and dimension, and resistances "
+        "in pascals over metres would compare what is not comparable");
+  }
+  if (out.extension() == ".gef" && !arguments.cpt)
+    throw UsageError("--out: GEF holds the table of a cone penetration test; ask for it with --cpt");
+  if (!arguments.cpt || out.empty()) return;
+  if (out.extension() != ".csv" && out.extension() != ".gef")
+    throw UsageError(fmt::format("--out: {} is no name for --cpt; allowed: FILE.csv, FILE.gef", arguments.out));
+  if (out.extension() == ".gef" && out.filename().string().find("simulated") == std::string::npos) {
+    throw UsageError(
+        "--out: a GEF file that comes from no ground says so in its name, which has to contain \"simulated\"");
+  }
+}
+
+int curve(const CurveArguments& arguments) {
+  check(arguments);
+  const std::vector<present::SiteCurve> site = read_sites(arguments.site);
   const std::string study = study_name(arguments.study);
   const auto catalogue = store::Catalogue::open_read_only(arguments.root);
   if (!is_known(study, catalogue)) return execute::kNothingMatched;
-  const Found found = find(arguments, study, catalogue);
+  const CurveRuns found =
+      curve_runs(catalogue, arguments.root, study, arguments.where, arguments.bands || arguments.cpt);
   if (found.sources.empty()) {
     fmt::print(stderr, "nothing matched\n");
     return execute::kNothingMatched;
   }
-  if (arguments.bands && found.series == present::Series::water) throw UsageError("--bands: basins have no packings");
-  const std::vector<std::string> columns = columns_of(arguments, found);
-  if (arguments.out.empty()) {
-    write(found, columns, arguments.bands, stdout);
-    return execute::kDone;
+  const std::string title = study.empty() ? "All runs" : study;
+  if (found.series == present::Series::water) {
+    if (arguments.bands) throw UsageError("--bands: basins have no packings");
+    if (arguments.normalised) throw UsageError("--normalised: basins have no ground");
+    if (arguments.cpt) throw UsageError("--cpt: basins have no ground");
   }
-  if (std::filesystem::path(arguments.out).extension() == ".svg") {
-    if (arguments.bands) throw UsageError("--bands are CSV: the picture that a study ends with shows them");
-    draw(found, columns, study.empty() ? "All runs" : study, arguments.out);
-    return execute::kDone;
+  if (arguments.cpt) {
+    write_cpt(arguments, found.sources);
+  } else if (arguments.normalised) {
+    write_normalised(arguments, found, site, title);
+  } else if (arguments.bands && is_picture(arguments)) {
+    draw(bands_figure(found, title), arguments.out);
+  } else if (arguments.bands) {
+    put(arguments, [&](std::FILE* out) { present::write_bands(found.sources, out); });
+  } else if (const auto columns = columns_of(arguments, found); is_picture(arguments)) {
+    draw_columns(found, columns, title, arguments.out);
+  } else {
+    put(arguments, [&](std::FILE* out) { present::write_curves(found.sources, found.series, columns, out); });
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(arguments.out.c_str(), "w"), std::fclose);
-  if (!file) throw UsageError(fmt::format("{} cannot be written: {}", arguments.out, std::strerror(errno)));
-  write(found, columns, arguments.bands, file.get());
   return execute::kDone;
 }
 
@@ -130,28 +193,52 @@ void add_curve(CLI::App& app, Call& call) {
   CLI::App* command = app.add_subcommand("curve", "Write the series of runs as CSV, a row per record, or as a picture");
   command->add_option("STUDY", arguments.study, "Name or file of a study; default: every run");
   add_where_option(*command, arguments.where);
+  CLI::Option* of = command
+                        ->add_option("--of", arguments.of,
+                                     "Columns to write; all: every one that a run has; default: of drives all, of "
+                                     "basins volume_error and wave or "
+                                     "pile_force_y")
+                        ->type_name("NAME,...")
+                        ->delimiter(',');
+  CLI::Option* against =
+      command
+          ->add_option("--against", arguments.against, "Column before those; default: of drives depth, of basins time")
+          ->type_name("NAME");
   command
-      ->add_option(
-          "--of", arguments.of,
-          "Columns to write; all: every one that a run has; default: of drives all, of basins volume_error and wave or "
-          "pile_force_y")
-      ->type_name("NAME,...")
-      ->delimiter(',');
-  command->add_option("--against", arguments.against, "Column before those; default: of drives depth, of basins time")
-      ->type_name("NAME");
-  command->add_option("--out", arguments.out, "File to write: CSV, or .svg for a picture; default: standard output")
+      ->add_option("--out", arguments.out,
+                   "File to write: CSV, .svg for a picture, .gef with --cpt; default: standard output")
       ->type_name("FILE");
-  command->add_flag("--bands", arguments.bands,
-                    "A row per case and 0.05 m of depth: n packings, mean tip resistance and its 95 % interval");
+  CLI::Option* bands =
+      command->add_flag("--bands", arguments.bands,
+                        "A row per case and 0.05 m of depth: n packings, mean tip resistance and its 95 % interval");
+  CLI::Option* normalised = command->add_flag(
+      "--normalised", arguments.normalised,
+      "Tip resistance over the vertical effective stress of the bed, against depth over width of the pile");
+  command
+      ->add_flag("--cpt", arguments.cpt,
+                 "The table of a cone penetration test, a reading per 0.02 m: CSV, or GEF-CPT; a file for each run")
+      ->excludes(of)
+      ->excludes(against)
+      ->excludes(bands)
+      ->excludes(normalised);
+  for (CLI::Option* option : {of, against}) option->excludes(bands)->excludes(normalised);
+  add_site_options(*command, arguments.site);
   add_store_option(*command, arguments.root);
   command->footer(
       "Drives into a saturated bed have the columns of the grains and those of the fluid, row by row. Where both have\n"
       "one of a name, the fluid's is named \"fluid:kinetic_energy\". In dry drives beside them those of the fluid are "
       "nan.\n"
       "\n"
+      "Normalised curves and tables of penetration tests are explained in docs/site_data.md.\n"
+      "\n"
       "Examples:\n"
       "  runner curve tip_shape --out curves.csv\n"
       "  runner curve density --bands --out bands.csv\n"
+      "  runner curve density --bands --out bands.svg\n"
+      "  runner curve density --normalised --bands --out normalised.svg\n"
+      "  runner curve density --normalised --bands --overlay site.gef --site-unit-weight \"18 kN/m3\" \\\n"
+      "    --site-water-depth \"0 m\" --out overlay.svg\n"
+      "  runner curve tip_shape --where \"pile.tip = flat\" --cpt --out simulated.gef\n"
       "  runner curve wave --of kinetic_energy,potential_energy --against time\n"
       "  runner curve wave --out wave.svg\n"
       "  runner curve campaign --where \"fluid != null\" --of tip_resistance,shoulder_pressure --out pressure.svg\n"

@@ -16,12 +16,6 @@
 namespace seapile::present {
 namespace {
 
-std::string cell_text(const store::Cell& cell) {
-  if (const auto* value = std::get_if<double>(&cell)) return fmt::format("{}", *value);
-  if (const auto* words = std::get_if<std::string>(&cell)) return csv_field(*words);
-  return "";
-}
-
 void write(std::FILE* out, const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), out) != text.size()) {
     throw store::StoreError(store::StoreError::Kind::io,
@@ -106,6 +100,24 @@ std::vector<std::vector<double>> chosen_of_both(const CurveSource& source, const
 
 }  // namespace
 
+std::vector<PackedCase> packed(const std::vector<CurveSource>& sources) {
+  std::vector<PackedCase> cases;
+  for (const CurveSource& source : sources) {
+    Labels labels = source.labels;
+    std::erase_if(labels, [](const auto& label) { return label.first == kSeed; });
+    auto found = std::ranges::find(cases, labels, &PackedCase::labels);
+    if (found == cases.end()) found = cases.insert(cases.end(), {std::move(labels), {}});
+    found->packings.push_back(source);
+  }
+  return cases;
+}
+
+std::string cell_text(const store::Cell& cell) {
+  if (const auto* value = std::get_if<double>(&cell)) return fmt::format("{}", *value);
+  if (const auto* words = std::get_if<std::string>(&cell)) return csv_field(*words);
+  return "";
+}
+
 std::vector<std::string> column_names(Series series) {
   std::vector<std::string> names;
   for (const Column& column : all_columns(series)) names.push_back(column.name);
@@ -175,15 +187,10 @@ void write_curves(const std::vector<CurveSource>& sources, Series series, const 
 void write_bands(const std::vector<CurveSource>& sources, std::FILE* out, double level) {
   std::vector<Labels> cases;
   std::vector<CurveGroup> groups;
-  for (const CurveSource& source : sources) {
-    Labels labels = source.labels;
-    std::erase_if(labels, [](const auto& label) { return label.first == kSeed; });
-    const auto found = static_cast<std::size_t>(std::ranges::find(cases, labels) - cases.begin());
-    if (found == cases.size()) {
-      cases.push_back(std::move(labels));
-      groups.emplace_back();
-    }
-    groups[found].packings.push_back(read_resistance(source.run_folder));
+  for (const PackedCase& one : packed(sources)) {
+    cases.push_back(one.labels);
+    groups.emplace_back();
+    for (const CurveSource& source : one.packings) groups.back().packings.push_back(read_resistance(source.run_folder));
   }
   const store::Table parameters = label_table(cases);
   std::string text;

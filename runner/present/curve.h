@@ -16,7 +16,17 @@ struct CurveSource {
   std::string case_id, run;
   Labels labels;
   std::filesystem::path run_folder;
+  std::filesystem::path bed_folder = {};  ///< the run of a drive's bed
 };
+
+/// Runs that differ by their packing alone, under what else sets their case apart.
+struct PackedCase {
+  Labels labels;
+  std::vector<CurveSource> packings;
+};
+
+/// In the order of first occurrence.
+std::vector<PackedCase> packed(const std::vector<CurveSource>& sources);
 
 /// Which series of a run: that of the grains, that of the water, or of drives into a saturated bed both, row by row.
 enum class Series { grains, water, both };
@@ -35,6 +45,9 @@ std::string unit_of(Series series, const std::string& column);
 /// Throws store::StoreError.
 std::vector<std::vector<double>> read_columns(const CurveSource& source, Series series,
                                               const std::vector<std::string>& columns);
+
+/// A cell of CSV, with every digit of a number.
+std::string cell_text(const store::Cell& cell);
 
 /// Writes CSV: "case", "run", the labels, then the columns of the records in the order in which they are named, units
 /// in the header. One run is in memory at a time. Throws store::StoreError when a series cannot be read or the file not

@@ -88,6 +88,13 @@ std::vector<CsvRecord> read_csv(std::string_view text, std::size_t first_line, L
   return records;
 }
 
+CsvHeading csv_heading_of(const std::string& field) {
+  const std::size_t open = field.find('[');
+  if (open == std::string::npos || !field.ends_with(']')) return {field, ""};
+  return {std::string(trimmed(field.substr(0, open))),
+          std::string(trimmed(field.substr(open + 1, field.size() - open - 2)))};
+}
+
 std::string csv_line(const std::vector<std::string>& fields) {
   std::string line;
   for (std::size_t i = 0; i < fields.size(); ++i) {

@@ -40,6 +40,12 @@ std::string_view trimmed(std::string_view text);
 /// taken apart are refused.
 std::vector<CsvRecord> read_csv(std::string_view text, std::size_t first_line, LineProblems& problems);
 
+/// "pile.depth [m]" taken apart; no unit: "".
+struct CsvHeading {
+  std::string name, unit;
+};
+CsvHeading csv_heading_of(const std::string& field);
+
 /// One record as a line, its end included.
 std::string csv_line(const std::vector<std::string>& fields);
 

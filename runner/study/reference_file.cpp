@@ -17,18 +17,6 @@ using base::Problems;
 constexpr std::size_t kMostRows = 1000;
 constexpr std::string_view kSourceMark = "# source:";
 
-/// "pile.depth [m]" taken apart; no unit: "".
-struct Heading {
-  std::string name, unit;
-};
-
-Heading heading_of(const std::string& field) {
-  const std::size_t open = field.find('[');
-  if (open == std::string::npos || !field.ends_with(']')) return {field, ""};
-  return {std::string(trimmed(field.substr(0, open))),
-          std::string(trimmed(field.substr(open + 1, field.size() - open - 2)))};
-}
-
 /// A column that says which cases a row is of.
 struct PathColumn {
   Path path;
@@ -74,12 +62,12 @@ class FileReader {
       refuse(header.line, "is not the header", header_rule());
       return false;
     }
-    bool good = read_metric(header.line, heading_of(fields[n - 3]));
-    for (std::size_t i = 0; i + 3 < n; ++i) good &= read_path(header.line, heading_of(fields[i]));
+    bool good = read_metric(header.line, csv_heading_of(fields[n - 3]));
+    for (std::size_t i = 0; i + 3 < n; ++i) good &= read_path(header.line, csv_heading_of(fields[i]));
     return good;
   }
 
-  bool read_metric(std::size_t line, const Heading& heading) {
+  bool read_metric(std::size_t line, const CsvHeading& heading) {
     file_.unit = heading.unit;
     if (heading.name != metric_) {
       refuse(line, fmt::format("\"{}\" is not the metric of the check", heading.name.substr(0, 60)),
@@ -94,7 +82,7 @@ class FileReader {
     return false;
   }
 
-  bool read_path(std::size_t line, const Heading& heading) {
+  bool read_path(std::size_t line, const CsvHeading& heading) {
     Problems found;
     const SchemaNode* node = node_at(heading.name, root_place(""), scene_schema(), found);
     for (const auto& problem : found) {

@@ -52,6 +52,7 @@ constexpr std::array kSymbols = {
     Symbol{"deg", {.angle = 1, .numerator = std::numbers::pi, .denominator = 180}},
     Symbol{"N", {.length = 1, .mass = 1, .time = -2}},
     Symbol{"kN", {.length = 1, .mass = 1, .time = -2, .decimal = 3}},
+    Symbol{"MN", {.length = 1, .mass = 1, .time = -2, .decimal = 6}},
     Symbol{"J", {.length = 2, .mass = 1, .time = -2}},
     Symbol{"kJ", {.length = 2, .mass = 1, .time = -2, .decimal = 3}},
     Symbol{"Pa", {.length = -1, .mass = 1, .time = -2}},
@@ -201,6 +202,8 @@ std::string unit_example(std::string_view unit) {
   if (unit == "rad") return "60 deg";
   if (unit == "kg/m3") return "1.5 t/m3";
   if (unit == "m2/s") return "1 mm2/s";
+  if (unit == "kN/m3") return "18 kN/m3";
+  if (unit == "mm") return "35.7 mm";
   return fmt::format("1 {}", unit);
 }
 

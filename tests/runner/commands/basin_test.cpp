@@ -136,7 +136,8 @@ TEST_F(BasinCommands, WhatDoesNotFitEndsWithTwoAndOneLineAndWritesNothing) {
       {{"curve", "wave", "--bands", "--out", "c.svg"}, "basins have no packings"},
       {{"curve", "wave", "--of", "all", "--out", "c.svg"}, "a picture has at most 4 columns"},
       {{"curve", "wave", "--of", "time", "--out", "c.svg"}, "a picture needs a column over another one"},
-      {{"curve", "small", "--bands", "--out", "c.svg"}, "--bands are CSV"},
+      {{"curve", "wave", "--normalised", "--out", "c.svg"}, "--normalised: basins have no ground"},
+      {{"curve", "wave", "--cpt", "--out", "c.csv"}, "--cpt: basins have no ground"},
   };
   for (const auto& [arguments, word] : wrong) {
     const Finished finished = place->run(arguments);
