@@ -75,9 +75,9 @@ class Catalogue {
   /// "kind", "outcome", then the distinguishing labels, then `extra` (dotted parameter paths or metric names), or by
   /// default the first six metrics in the runs' own order. `where`: conditions, ANDed, "path op value" with op one of =
   /// != < <= > >= over parameters ("pile.driving.constant.speed", "bed.seed", "pile.tip"), metrics or "outcome"; values
-  /// are bound, never pasted. What a drive's bed is known by has "bed:" before its name ("bed:solid_fraction"), which
-  /// no path has; "bed:case" is the bed's case. Throws std::invalid_argument naming the nearest known name for an
-  /// unknown one.
+  /// are bound, never pasted. What a drive's bed is known by has "bed:" before its name ("bed:solid_fraction"), which no
+  /// path has; "bed:case" is the bed's case. Throws std::invalid_argument naming the nearest known name for an unknown
+  /// one.
   Table query(const std::string& study, const std::vector<std::string>& where,
               const std::vector<std::string>& extra) const;
 
