@@ -12,6 +12,7 @@
 #include "runner/execute/exit_codes.h"
 #include "runner/present/check_table.h"
 #include "runner/present/claim_table.h"
+#include "runner/present/junit.h"
 
 namespace seapile::commands {
 namespace {
@@ -21,6 +22,7 @@ struct CheckArguments {
   std::optional<std::string> accept;
   study::Options options;
   present::Format format = present::Format::table;
+  std::string junit;
 };
 
 /// A failure outweighs what cannot be decided. What a claim comes to is a finding, and no failure, unless the study
@@ -64,6 +66,8 @@ int check(const CheckArguments& arguments) {
   }
   fmt::print(for_people ? stdout : stderr, "{}{}", present::check_remark(comparisons, packings),
              present::claim_remark(claims));
+  if (!arguments.junit.empty())
+    store::write_text(arguments.junit, present::junit_text(study.name, comparisons, claims));
   return exit_code(comparisons, claims);
 }
 
@@ -80,6 +84,9 @@ void add_check(CLI::App& app, Call& call) {
   CLI::Option* note = command->add_option("--note", arguments.note, "Why they are right")->type_name("TEXT");
   accept->needs(note);
   note->needs(accept);
+  command->add_option("--junit", arguments.junit, "Write the checks as JUnit XML too, for continuous integration")
+      ->type_name("FILE.xml")
+      ->excludes(accept);
   add_format_option(*command, arguments.format);
   add_store_option(*command, arguments.root);
   command->footer(
@@ -89,6 +96,7 @@ void add_check(CLI::App& app, Call& call) {
       "Examples:\n"
       "  runner check my_study.json\n"
       "  runner check my_study.json --seeds 5 --format csv\n"
+      "  runner check my_study.json --junit checks.xml\n"
       "  runner check my_study.json --accept 1a2b3c4d5e --note \"grains 4: rebounds are no longer lost\"");
   command->callback([&call] { call = [] { return check(arguments); }; });
 }

@@ -28,6 +28,8 @@ void add_advise(CLI::App& app, Call& call);
 void add_trade(CLI::App& app, Call& call);
 void add_trend(CLI::App& app, Call& call);
 void add_check(CLI::App& app, Call& call);
+void add_compare(CLI::App& app, Call& call);
+void add_gc(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);

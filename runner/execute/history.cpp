@@ -29,6 +29,17 @@ std::string visible_damage(const fs::path& run_folder, const store::Manifest& ma
   return "";
 }
 
+/// Of a run whose frames were dropped none counts as recorded; one without its series is of no use to a study.
+void note_dropped(const store::Manifest& manifest, PastRun& past) {
+  for (const std::string& path : manifest.dropped) {
+    if (path == "series.h5" && past.damage.empty())
+      past.damage = fmt::format("the series of run {} was dropped to save space", manifest.run);
+    if (!path.ends_with(".vtkhdf") || !past.record) continue;
+    past.record->frames.clear();
+    past.record->times.clear();
+  }
+}
+
 PastRun read_past(const fs::path& run_folder, const std::string& run) {
   PastRun past;
   past.run = run;
@@ -40,6 +51,7 @@ PastRun read_past(const fs::path& run_folder, const std::string& run) {
     past.bed_run = manifest.header.bed_run;
     if (!manifest.header.record_json.empty()) past.record = study::record_from_json(manifest.header.record_json);
     past.damage = visible_damage(run_folder, manifest);
+    note_dropped(manifest, past);
   } catch (const store::StoreError& error) {
     past.damage = fmt::format("run {} is damaged: {}", run, error.what());
   } catch (const study::BadInput& error) {

@@ -114,6 +114,7 @@ std::string run_text(const store::Manifest& manifest, const std::filesystem::pat
     files.rows.push_back({file.path, fmt::format("{}", file.bytes), file.sha256});
   }
   text += "\nfiles\n" + indented(files);
+  for (const std::string& path : manifest.dropped) text += fmt::format("  {} was dropped to save space\n", path);
   text += "\ntime went into\n";
   for (const simulation::ProfileEntry& entry : manifest.result.profile) {
     text += fmt::format("  {:<28} {:>10.3f} s {:>12} calls\n", entry.part, entry.seconds, entry.calls);

@@ -91,6 +91,16 @@ void Catalogue::ingest(const Path& run_folder) {
   impl_->transact([&](SQLite::Database& sqlite) { impl_->ingest(sqlite, run_folder, manifest); });
 }
 
+void Catalogue::refresh(const Path& run_folder) {
+  impl_->transact([&](SQLite::Database& sqlite) {
+    SQLite::Statement forget(sqlite, "DELETE FROM run WHERE case_id = ? AND number = ?");
+    forget.bind(1, run_folder.parent_path().filename().string());
+    forget.bind(2, static_cast<std::int64_t>(run_number(run_name(run_folder))));
+    forget.exec();
+    if (is_there(run_folder / kManifestFile)) impl_->ingest(sqlite, run_folder, read_complete(run_folder));
+  });
+}
+
 std::size_t Catalogue::rebuild(std::vector<std::string>* left_out) {
   std::size_t count = 0;
   const std::vector<StudyEntry> studies = read_studies(impl_->root);

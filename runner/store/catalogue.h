@@ -66,6 +66,9 @@ class Catalogue {
   /// Ingests a complete run in one transaction; ingesting it again changes nothing. Throws StoreError.
   void ingest(const std::filesystem::path& run_folder);
 
+  /// Takes a run as its folder says it is now: forgotten when it is gone, else its rows anew. Throws StoreError.
+  void refresh(const std::filesystem::path& run_folder);
+
   /// Forgets everything and ingests every study and every complete run folder below the root, in one transaction.
   /// Returns how many runs; `left_out` receives a sentence for each folder whose manifest or files do not hold.
   std::size_t rebuild(std::vector<std::string>* left_out = nullptr);

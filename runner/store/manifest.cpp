@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "runner/store/sha256.h"
+#include "runner/store/sealed_text.h"
 #include "runner/store/stamp.h"
 
 namespace seapile::store {
@@ -18,9 +18,6 @@ using simulation::Outcome;
 
 constexpr const char* kOutcomes[] = {"completed", "diverged", "stopped"};
 constexpr const char* kBy[] = {"scene", "asked"};
-constexpr std::string_view kSealHead = ",\n  \"seal\": \"";
-constexpr std::string_view kSealTail = "\"\n}\n";
-constexpr std::size_t kDigestDigits = 64;
 
 /// JSON knows no NaN and no infinity: they are written as text.
 Json from_number(double value) {
@@ -177,17 +174,6 @@ Provenance to_provenance(const Json& json) {
   throw StoreError(StoreError::Kind::damaged, where.string() + " is damaged: " + what);
 }
 
-/// The document before the seal. Nothing is parsed before the seal has been found to hold.
-std::string_view sealed_part(const std::string& text, const std::filesystem::path& where) {
-  const std::size_t tail = kSealHead.size() + kDigestDigits + kSealTail.size();
-  if (text.size() < tail) damaged(where, "it is too short");
-  const std::string_view sealed = std::string_view(text).substr(0, text.size() - tail);
-  if (text.substr(sealed.size()) != std::string(kSealHead) + sha256(sealed) + std::string(kSealTail)) {
-    damaged(where, "its seal is not that of its text");
-  }
-  return sealed;
-}
-
 }  // namespace
 
 const char* name(Outcome outcome) { return kOutcomes[static_cast<int>(outcome)]; }
@@ -207,17 +193,14 @@ std::string manifest_text(const Manifest& manifest) {
   for (const FileEntry& file : manifest.files) {
     json["files"].push_back(Json{{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   }
-  std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
-  text.resize(text.rfind("\n}"));
-  return text + std::string(kSealHead) + sha256(text) + std::string(kSealTail);
+  return with_seal(json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 Manifest parse_manifest(const std::string& text, const std::filesystem::path& where) {
-  const std::string_view sealed = sealed_part(text, where);
   Manifest manifest;
-  manifest.seal = sha256(sealed);
+  manifest.seal = seal_of(text, where);
   try {
-    const Json json = Json::parse(std::string(sealed) + "}");
+    const Json json = Json::parse(unsealed(text, where));
     manifest.schema = json.at("schema");
     if (manifest.schema > kSchema) {
       damaged(where, fmt::format("it is of schema {}; this program knows {}", manifest.schema, kSchema));

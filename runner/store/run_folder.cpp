@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runner/store/bed_file.h"
+#include "runner/store/dropped.h"
 #include "runner/store/durable.h"
 #include "runner/store/flow_file.h"
 #include "runner/store/frames_file.h"
@@ -58,7 +59,10 @@ bool is_listed(const Manifest& manifest, const std::string& path) {
 Path intact(const Path& run_folder, const Manifest& manifest, const std::string& path) {
   const auto entry = std::ranges::find(manifest.files, path, &FileEntry::path);
   if (entry == manifest.files.end()) {
-    throw StoreError(StoreError::Kind::damaged, run_folder.string() + " has no " + path);
+    const bool dropped = std::ranges::find(manifest.dropped, path) != manifest.dropped.end();
+    throw StoreError(StoreError::Kind::damaged,
+                     run_folder.string() + (dropped ? " has no longer a " + path + ", which was dropped to save space"
+                                                    : " has no " + path));
   }
   const std::string found = difference(run_folder, *entry);
   if (!found.empty()) throw StoreError(StoreError::Kind::damaged, found);
@@ -141,6 +145,7 @@ Manifest read_manifest(const Path& run_folder) {
     throw StoreError(StoreError::Kind::damaged, file.string() + " is damaged: it is of run " + manifest.run +
                                                     " of case " + manifest.header.case_id);
   }
+  apply_dropped(run_folder, manifest);
   return manifest;
 }
 

@@ -84,7 +84,8 @@ struct Manifest {
   simulation::RunResult result;
   Provenance provenance;
   std::vector<FileEntry> files;
-  std::string seal;  ///< SHA-256 of the manifest's own text, when read
+  std::string seal;                       ///< SHA-256 of the manifest's own text, when read
+  std::vector<std::string> dropped = {};  ///< files that were removed on purpose and no longer count (dropped.h)
 };
 
 /// What an interrupted run left behind.
@@ -142,7 +143,8 @@ std::filesystem::path newest_run(const std::filesystem::path& root, const std::s
 /// a new one.
 std::string next_run(const std::filesystem::path& case_folder, bool resume);
 
-/// Reads a manifest; throws StoreError::damaged when it is not one, is newer than this program, or is for another case.
+/// Reads a manifest, without the files that were dropped on purpose; throws StoreError::damaged when it is not one, is
+/// newer than this program, or is for another case.
 Manifest read_manifest(const std::filesystem::path& run_folder);
 
 /// Checks every file's size and SHA-256 against the manifest; returns one sentence per file that differs. Throws like
