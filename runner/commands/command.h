@@ -18,6 +18,9 @@ namespace seapile::commands {
 using Call = std::function<int()>;
 
 void add_run(CLI::App& app, Call& call);
+void add_submit(CLI::App& app, Call& call);
+void add_jobs(CLI::App& app, Call& call);
+void add_cancel(CLI::App& app, Call& call);
 void add_query(CLI::App& app, Call& call);
 void add_curve(CLI::App& app, Call& call);
 void add_figure(CLI::App& app, Call& call);
