@@ -75,7 +75,7 @@ SlurmctldPort=$port
 SlurmdPort=$((port + 1))
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
 AuthType=auth/munge
-AuthInfo=socket=$folder/munge/socket
+AuthInfo=socket=$folder/pid/munge.socket
 StateSaveLocation=$folder/state
 SlurmdSpoolDir=$folder/spool
 SlurmctldPidFile=$folder/pid/slurmctld
@@ -109,9 +109,9 @@ trap 'exit 143' TERM HUP
 trap 'exit 130' INT
 head --bytes=1024 /dev/urandom > "$folder/munge/key"
 chmod 400 "$folder/munge/key"
-munged --key-file="$folder/munge/key" --seed-file="$folder/munge/seed" --socket="$folder/munge/socket" \
+munged --key-file="$folder/munge/key" --seed-file="$folder/munge/seed" --socket="$folder/pid/munge.socket" \
   --pid-file="$folder/pid/munged" --log-file="$folder/log/munged.log" --num-threads=2 || fail "munged did not start"
-wait_until 5 munge --socket="$folder/munge/socket" --no-input || fail "munged does not answer"
+wait_until 5 munge --socket="$folder/pid/munge.socket" --no-input || fail "munged does not answer"
 slurmctld -i || fail "slurmctld did not start"
 wait_until 10 sh -c 'scontrol ping | grep -q "is UP"' || fail "slurmctld does not answer"
 slurmd -N "$host" || fail "slurmd did not start"
