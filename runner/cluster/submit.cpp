@@ -130,9 +130,19 @@ void write_files(const study::Study& study, const execute::Plan& plan, const Lay
   store::write_text(submission.folder / "ingest.sh", ingest_script(options.engine));
 }
 
+/// Lets Slurm say whether it would take such a job at all: of what is submitted on hold it does not look at memory or
+/// processors, and would keep for ever what no node can run. All arrays ask for the same.
+void try_out(const study::Study& study, const Layout& layout, const fs::path& folder, const SubmitOptions& options) {
+  std::vector<std::string> words = array_words(study, layout, 0, {}, folder, options);
+  std::erase(words, "--hold");
+  words.insert(words.begin(), "--test-only");
+  ask_surely("sbatch", words);
+}
+
 /// Submits array by array on hold, then the ingest, and lets go. submit.json tells of every job from the moment that
 /// Slurm has accepted it, so that `cancel` finds it whatever happens to this process.
 void hand_over(const study::Study& study, const Layout& layout, Submission& submission, const SubmitOptions& options) {
+  try_out(study, layout, submission.folder, options);
   std::vector<std::string> jobs;
   for (std::size_t number = 0; number < layout.arrays.size(); ++number) {
     SubmittedArray& array = submission.arrays[number];

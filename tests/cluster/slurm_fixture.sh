@@ -112,7 +112,7 @@ chmod 400 "$folder/munge/key"
 munged --key-file="$folder/munge/key" --seed-file="$folder/munge/seed" --socket="$folder/pid/munge.socket" \
   --pid-file="$folder/pid/munged" --log-file="$folder/log/munged.log" --num-threads=2 || fail "munged did not start"
 wait_until 5 munge --socket="$folder/pid/munge.socket" --no-input || fail "munged does not answer"
-slurmctld -i || fail "slurmctld did not start"
+slurmctld -c || fail "slurmctld did not start"
 wait_until 10 sh -c 'scontrol ping | grep -q "is UP"' || fail "slurmctld does not answer"
 slurmd -N "$host" || fail "slurmd did not start"
 wait_until 30 sh -c 'sinfo --noheader --format=%t | grep -qx idle' || fail "the node did not become idle"
