@@ -199,7 +199,7 @@ TEST_F(Cluster, AStudyComesToWhatRunGives) {
 
 TEST_F(Cluster, ACaseStoppedBeforeTheTimeLimitContinuesToTheSameHash) {
   const std::vector<std::string> slow = {
-      "small.json", "--set", "pile.tip=flat", "--set", "pile.driving.constant.speed=0.004 m/s", "--checkpoint", "0"};
+      "small.json", "--set", "pile.tip=flat", "--set", "pile.driving.constant.speed=0.03 m/s", "--checkpoint", "0"};
   const auto words = [&](std::vector<std::string> first, const std::vector<std::string>& last) {
     first.insert(first.end(), slow.begin(), slow.end());
     first.insert(first.end(), last.begin(), last.end());
