@@ -99,18 +99,21 @@ class WithPath {
   std::string before_;
 };
 
-/// The worker that computes a case, which has its id in its command line; 0: none.
-pid_t worker_of(const std::string& case_id) {
+/// A process with both words in its command line; 0: none.
+pid_t process_with(const std::string& one, const std::string& other) {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     const std::string line = content(entry.path() / "cmdline");
-    if (line.find(case_id) != std::string::npos && line.find("exec") != std::string::npos) return std::stoi(name);
+    if (line.find(one) != std::string::npos && line.find(other) != std::string::npos) return std::stoi(name);
   }
   return 0;
 }
 
-// Five beds, one array. Slurm notices a passed time limit within half a minute: the array is begun before the other
+/// The worker that computes a case.
+pid_t worker_of(const std::string& case_id) { return process_with("exec", case_id); }
+
+// Six beds, one array. Slurm notices a passed time limit within half a minute: the array is begun before the other
 // tests, and looked at after them.
 const std::string kEndings = R"({
   "study": "endings",
@@ -226,6 +229,9 @@ TEST_F(Cluster, ACaseStoppedBeforeTheTimeLimitContinuesToTheSameHash) {
   ASSERT_TRUE(comes_true([&] { return state() == "requeued"; })) << state();
   // Slurm holds what was put back for two minutes; this is not waited for.
   ASSERT_TRUE(comes_true([&] { return job_tasks(first.arrays.back().job).at(0).state == "PENDING"; }));
+  // But Slurm's own process of the first attempt has to be gone, or the second fails to start.
+  const std::string stepd = "[" + first.arrays.back().job + ".batch]";
+  ASSERT_TRUE(comes_true([&] { return process_with("slurmstepd", stepd) == 0; }));
   ask_surely("scontrol", {"update", "JobId=" + task, "StartTime=now"});
   ASSERT_TRUE(comes_true([&] { return worker_of(drive.id) != 0; }));
   std::this_thread::sleep_for(500ms);
