@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "runner/cluster/scheduler.h"
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/provenance.h"
@@ -48,6 +49,9 @@ int run_program(int count, char** arguments) {
   commands::add_run(app, call);
   commands::add_plan(app, call);
   commands::add_status(app, call);
+  commands::add_submit(app, call);
+  commands::add_jobs(app, call);
+  commands::add_cancel(app, call);
   commands::add_query(app, call);
   commands::add_curve(app, call);
   commands::add_figure(app, call);
@@ -78,6 +82,9 @@ int run_program(int count, char** arguments) {
   } catch (const commands::UsageError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return execute::kBadInput;
+  } catch (const cluster::SchedulerError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return execute::kSchedulerRefused;
   } catch (const store::StoreError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return execute::kStoreUnusable;

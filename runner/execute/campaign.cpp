@@ -63,7 +63,7 @@ Campaign::Campaign(const study::Study& study, CampaignOptions options)
 
 int Campaign::carry_out() {
   announce();
-  Processes processes(kThisProgram, [this](const Task& task) { return request_for(task); });
+  Processes processes(kThisProgram, [this](const Task& task) { return request_of(study_, task, options_); });
   {
     Display display(plan_, stderr, ::isatty(STDERR_FILENO) == 1);
     Watch watch = display.watch();
@@ -153,14 +153,14 @@ void Campaign::ingest(const std::string& case_id) {
   }
 }
 
-Request Campaign::request_for(const Task& task) const {
-  const study::Case& c = study_.cases[task.study_case];
+Request request_of(const study::Study& study, const Task& task, const CampaignOptions& options) {
+  const study::Case& c = study.cases[task.study_case];
   Request request;
-  request.root = fs::absolute(options_.root).string();
+  request.root = fs::absolute(options.root).string();
   request.case_id = task.id;
   request.scene = c.scene;
-  request.record = study_.record;
-  request.checkpoint_every = options_.checkpoint_every;
+  request.record = study.record;
+  request.checkpoint_every = options.checkpoint_every;
   if (task.kind == Kind::bed) {
     request.kind = "bed";
     request.canonical = c.bed_canonical;
@@ -172,7 +172,7 @@ Request Campaign::request_for(const Task& task) const {
     request.kind = "drive";
     request.canonical = c.canonical;
     request.bed_id = c.bed_id;
-    request.bed_run = store::newest_run(options_.root, c.bed_id).filename().string();
+    request.bed_run = store::newest_run(options.root, c.bed_id).filename().string();
   }
   return request;
 }

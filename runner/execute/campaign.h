@@ -38,6 +38,10 @@ std::vector<simulation::NumericsVersion> todays_numerics(const scene::SceneSpec&
 /// Whether versions are today's of a scene.
 bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene);
 
+/// What a worker is asked for a task of the study's plan; a drive is built on its bed's newest run, if there is one
+/// yet.
+Request request_of(const study::Study& study, const Task& task, const CampaignOptions& options);
+
 class Campaign {
  public:
   /// Plans; writes nothing. `study` must outlive it.

@@ -38,6 +38,8 @@ const char* meaning(int exit_code) {
       return "internal error";
     case kClaimHeld:
       return "another process runs this case";
+    case kBedMissing:
+      return "its bed is missing";
     default:
       return "ended unexpectedly";
   }

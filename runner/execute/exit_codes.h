@@ -22,5 +22,6 @@ inline constexpr int kVerifyFailed = 43;   ///< a file differs from what was wri
 inline constexpr int kDiverged = 44;       ///< the numerics gave up; the run is sealed with the reason
 inline constexpr int kInternalError = 45;  ///< an exception that nobody expected
 inline constexpr int kClaimHeld = 46;      ///< another process runs this case
+inline constexpr int kBedMissing = 47;     ///< the bed to build on has no run that can be used
 
 }  // namespace seapile::execute

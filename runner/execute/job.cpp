@@ -265,6 +265,17 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
   return Job(request, case_folder / run, tell).run(decision.action == Action::resume);
 }
 
+/// Why the bed that a drive is to be built on cannot be used, or "" once `bed_run` names its newest run: a batch system
+/// is asked for the drive before there is one.
+std::string find_bed(Request& request) {
+  const Asked asked{simulation::numerics_versions(bed_alone(request.scene)), std::nullopt, ""};
+  const History history = read_history(request.root, request.bed_id);
+  const Decision decision = decide(asked, history);
+  request.bed_run = decision.run;
+  if (decision.action == Action::fresh) return "";
+  return fmt::format("its bed {} cannot be had: {}", short_id(request.bed_id), decision.reason);
+}
+
 int code_of(store::StoreError::Kind kind) {
   using Kind = store::StoreError::Kind;
   switch (kind) {
@@ -302,7 +313,10 @@ int work(const Request& request, const std::function<void(const Message&)>& tell
     return code;
   };
   try {
-    return run_claimed(request, tell);
+    if (request.kind != "drive" || !request.bed_run.empty()) return run_claimed(request, tell);
+    Request on_bed = request;
+    if (const std::string objection = find_bed(on_bed); !objection.empty()) return trouble(kBedMissing, objection);
+    return run_claimed(on_bed, tell);
   } catch (const store::StoreError& error) {
     return trouble(code_of(error.kind), error.what());
   } catch (const study::BadInput& error) {

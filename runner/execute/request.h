@@ -15,7 +15,8 @@ struct Request {
   scene::SceneSpec scene;    ///< for a bed: the bed alone
   scene::RecordSpec record;  ///< what to record of a drive or a basin
   std::string bed_id;        ///< of a drive's bed; "" otherwise
-  std::string bed_run;       ///< the bed's run to start from; "" otherwise
+  std::string bed_run;  ///< the bed's run to start from; "" otherwise, and for a drive whose bed is still to come: the
+                        ///< newest one that is fresh when the worker begins
   int threads = 1;
   double checkpoint_every = 10;  ///< [s] of wall time between two checkpoints
   int parent = 0;                ///< process that the worker must not outlive; 0: none

@@ -40,11 +40,12 @@ const std::vector<Room> kRooms = {
       "solver/simulation/flow_frame.h", "solver/simulation/flow_record.h", "solver/simulation/frame.h",
       "solver/simulation/record.h", "solver/simulation/run.h", "solver/simulation/state.h"}},
     {"runner/execute/", {"runner/store/", "runner/study/", "solver/simulation/", "solver/scene/"}},
+    {"runner/cluster/", {"runner/execute/", "runner/store/", "runner/study/", "solver/base/", "solver/simulation/"}},
     {"runner/present/",
      {"runner/store/", "solver/base/", "solver/scene/", "solver/pile/pile.h", "solver/mesh/quality.h",
       "solver/mesh/triangle_mesh.h", "solver/simulation/flow_frame.h", "solver/simulation/flow_record.h",
       "solver/simulation/frame.h", "solver/simulation/record.h"}},
-    {"runner/commands/", {"runner/present/", "runner/execute/", "runner/store/", "runner/study/"}},
+    {"runner/commands/", {"runner/present/", "runner/cluster/", "runner/execute/", "runner/store/", "runner/study/"}},
 };
 
 /// Headers from outside that the files of a folder may not use: the beginning of the name, and why.
