@@ -62,7 +62,6 @@ class Campaign {
   void ingest(const std::string& case_id);
   void note_failure(std::size_t task, const std::string& why) const;
   void show_log(const std::string& case_id) const;
-  Request request_for(const Task& task) const;
 
   const study::Study& study_;
   CampaignOptions options_;
