@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "runner/commands/command.h"
+#include "runner/study/fidelity.h"
+#include "runner/study/nearest.h"
 
 namespace seapile::commands {
 
@@ -26,16 +28,26 @@ void add_study_options(CLI::App& command, study::Options& options) {
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
-  command.add_option("--fidelity", options.fidelity, "Level of fidelity, in place of the study's")->type_name("LEVEL");
+  command.add_option("--fidelity", options.fidelity, "Level of fidelity, in place of the study's")
+      ->type_name(fmt::format("{}", fmt::join(study::fidelity_names(), "|")));
   command.add_option("--seeds", options.seeds, "Repeat every case on N packings: bed.seed = 1..N")->type_name("N");
 }
 
 void add_format_option(CLI::App& command, present::Format& format) {
-  const std::map<std::string, present::Format> formats = {
-      {"table", present::Format::table}, {"csv", present::Format::csv}, {"json", present::Format::json}};
-  command.add_option("--format", format, "table, csv or json")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
-      ->type_name("FORMAT");
+  static const std::vector<std::string> kNames = {"table", "csv", "json", "ndjson"};  // in the order of the enum
+  const auto number_of_name = [](std::string& word) {
+    const auto found = std::ranges::find(kNames, word);
+    if (found != kNames.end()) {
+      word = std::to_string(found - kNames.begin());
+      return std::string();
+    }
+    const std::string near = study::nearest(word, kNames);
+    return fmt::format("\"{}\" is unknown; allowed: {}{}", word, fmt::join(kNames, ", "),
+                       near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
+  };
+  command.add_option("--format", format, "How the answer is written; ndjson: one JSON object per row and line")
+      ->transform(CLI::Validator(number_of_name, ""))
+      ->type_name(fmt::format("{}", fmt::join(kNames, "|")));
 }
 
 std::string study_name(const std::string& study) {
@@ -46,8 +58,12 @@ std::string study_name(const std::string& study) {
 bool is_known(const std::string& study, const store::Catalogue& catalogue) {
   const auto studies = catalogue.studies();
   if (study.empty() || std::ranges::find(studies, study) != studies.end()) return true;
-  fmt::print(stderr, "no study called \"{}\" was run here; there {} {}\n", study, studies.size() == 1 ? "is" : "are",
-             studies.empty() ? "none" : fmt::format("{}", fmt::join(studies, ", ")));
+  const std::string near = study::nearest(study, studies);
+  fmt::print(stderr, "no study called \"{}\" was run here; {}\n", study,
+             !near.empty() ? fmt::format("did you mean \"{}\"?", near)
+             : studies.empty()
+                 ? "there are none"
+                 : fmt::format("there {} {}", studies.size() == 1 ? "is" : "are", fmt::join(studies, ", ")));
   return false;
 }
 
