@@ -28,6 +28,10 @@ void add_check(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);
+void add_schema(CLI::App& app, Call& call);
+void add_new(CLI::App& app, Call& call);
+void add_doctor(CLI::App& app, Call& call);
+void add_completion(CLI::App& app, Call& call);
 void add_exec(CLI::App& app, Call& call);
 
 /// What the user asked for on the command line cannot be done as it stands; exit code 2.
@@ -43,6 +47,9 @@ void add_where_option(CLI::App& command, std::vector<std::string>& where);
 
 /// Adds `--set` and `--seeds`, what the command line changes in a study.
 void add_study_options(CLI::App& command, study::Options& options);
+
+/// Lets an option be one of these names only, which its help lists; another word is answered with the nearest.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names);
 
 /// Adds `--format`.
 void add_format_option(CLI::App& command, present::Format& format);

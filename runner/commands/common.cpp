@@ -33,21 +33,24 @@ void add_study_options(CLI::App& command, study::Options& options) {
   command.add_option("--seeds", options.seeds, "Repeat every case on N packings: bed.seed = 1..N")->type_name("N");
 }
 
-void add_format_option(CLI::App& command, present::Format& format) {
-  static const std::vector<std::string> kNames = {"table", "csv", "json", "ndjson"};  // in the order of the enum
-  const auto number_of_name = [](std::string& word) {
-    const auto found = std::ranges::find(kNames, word);
-    if (found != kNames.end()) {
-      word = std::to_string(found - kNames.begin());
-      return std::string();
-    }
-    const std::string near = study::nearest(word, kNames);
-    return fmt::format("\"{}\" is unknown; allowed: {}{}", word, fmt::join(kNames, ", "),
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names) {
+  const auto objection = [names](std::string& word) {
+    if (std::ranges::find(names, word) != names.end()) return std::string();
+    const std::string near = study::nearest(word, names);
+    return fmt::format("\"{}\" is unknown; allowed: {}{}", word, fmt::join(names, ", "),
                        near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
   };
-  command.add_option("--format", format, "How the answer is written; ndjson: one JSON object per row and line")
-      ->transform(CLI::Validator(number_of_name, ""))
-      ->type_name(fmt::format("{}", fmt::join(kNames, "|")));
+  return option->check(CLI::Validator(objection, ""))->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
+void add_format_option(CLI::App& command, present::Format& format) {
+  static const std::vector<std::string> kNames = {"table", "csv", "json", "ndjson"};  // in the order of the enum
+  const auto choose = [&format](const std::string& name) {
+    format = static_cast<present::Format>(std::ranges::find(kNames, name) - kNames.begin());
+  };
+  one_of(command.add_option_function<std::string>(
+             "--format", choose, "How the answer is written; ndjson: one JSON object per row and line"),
+         kNames);
 }
 
 std::string study_name(const std::string& study) {
