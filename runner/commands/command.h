@@ -30,7 +30,6 @@ void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);
 void add_schema(CLI::App& app, Call& call);
 void add_new(CLI::App& app, Call& call);
-void add_doctor(CLI::App& app, Call& call);
 void add_completion(CLI::App& app, Call& call);
 void add_exec(CLI::App& app, Call& call);
 

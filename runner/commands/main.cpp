@@ -43,7 +43,9 @@ int run_program(int count, char** arguments) {
   commands::add_show(app, call);
   commands::add_verify(app, call);
   commands::add_reindex(app, call);
+  commands::add_new(app, call);
   commands::add_schema(app, call);
+  commands::add_completion(app, call);
   commands::add_exec(app, call);
   app.add_flag("--no-color")->description("No colours, on a terminal either; as the environment's NO_COLOR does");
   try {
