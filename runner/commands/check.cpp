@@ -10,6 +10,7 @@
 #include "runner/commands/command.h"
 #include "runner/commands/packings.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/execute/tint.h"
 #include "runner/present/check_table.h"
 #include "runner/present/claim_table.h"
 #include "runner/present/junit.h"
@@ -60,7 +61,8 @@ int check(const CheckArguments& arguments) {
   const bool packings = std::ranges::any_of(study.cases, [](const study::Case& one) { return !is_water(one.scene); });
   if (for_people) {
     const std::string checks = present::check_text(comparisons), of_claims = present::claim_text(claims);
-    fmt::print("{}{}{}\n", checks, checks.empty() || of_claims.empty() ? "" : "\n", of_claims);
+    const char* between = checks.empty() || of_claims.empty() ? "" : "\n";
+    fmt::print("{}\n", execute::tinted(checks + between + of_claims, stdout));
   } else {
     fmt::print("{}", present::text(present::with_claims(present::check_table(comparisons), claims), arguments.format));
   }
@@ -68,6 +70,9 @@ int check(const CheckArguments& arguments) {
              present::claim_remark(claims));
   if (!arguments.junit.empty())
     store::write_text(arguments.junit, present::junit_text(study.name, comparisons, claims));
+  std::FILE* beside = for_people ? stdout : stderr;
+  const std::string remark = present::check_remark(comparisons, packings) + present::claim_remark(claims);
+  fmt::print(beside, "{}", execute::tinted(remark, beside));
   return exit_code(comparisons, claims);
 }
 

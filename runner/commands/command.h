@@ -36,6 +36,9 @@ void add_gc(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);
+void add_schema(CLI::App& app, Call& call);
+void add_new(CLI::App& app, Call& call);
+void add_completion(CLI::App& app, Call& call);
 void add_exec(CLI::App& app, Call& call);
 
 /// What the user asked for on the command line cannot be done as it stands; exit code 2.
@@ -54,6 +57,8 @@ void add_study_options(CLI::App& command, study::Options& options);
 
 /// Adds `--jobs`, `--threads`, `--memory` and `--oversubscribe`: how this machine is shared out among cases.
 void add_sharing_options(CLI::App& command, execute::Sharing& sharing);
+/// Lets an option be one of these names only, which its help lists; another word is answered with the nearest.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names);
 
 /// Adds `--format`.
 void add_format_option(CLI::App& command, present::Format& format);

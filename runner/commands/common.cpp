@@ -1,11 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 
 #include "runner/commands/command.h"
+#include "runner/study/fidelity.h"
+#include "runner/study/nearest.h"
 
 namespace seapile::commands {
 
@@ -27,7 +29,8 @@ void add_study_options(CLI::App& command, study::Options& options) {
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
-  command.add_option("--fidelity", options.fidelity, "Level of fidelity, in place of the study's")->type_name("LEVEL");
+  command.add_option("--fidelity", options.fidelity, "Level of fidelity, in place of the study's")
+      ->type_name(fmt::format("{}", fmt::join(study::fidelity_names(), "|")));
   command.add_option("--seeds", options.seeds, "Repeat every case on N packings: bed.seed = 1..N")->type_name("N");
 }
 
@@ -46,14 +49,24 @@ void add_sharing_options(CLI::App& command, execute::Sharing& sharing) {
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(true));
   command.add_flag("--oversubscribe", sharing.oversubscribe, "Let cases have more threads than there are cores");
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names) {
+  const auto objection = [names](std::string& word) {
+    if (std::ranges::find(names, word) != names.end()) return std::string();
+    const std::string near = study::nearest(word, names);
+    return fmt::format("\"{}\" is unknown; allowed: {}{}", word, fmt::join(names, ", "),
+                       near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
+  };
+  return option->check(CLI::Validator(objection, ""))->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
 void add_format_option(CLI::App& command, present::Format& format) {
-  const std::map<std::string, present::Format> formats = {
-      {"table", present::Format::table}, {"csv", present::Format::csv}, {"json", present::Format::json}};
-  command.add_option("--format", format, "table, csv or json")
-      ->transform(CLI::CheckedTransformer(formats).description(""))
-      ->type_name("FORMAT");
+  static const std::vector<std::string> kNames = {"table", "csv", "json", "ndjson"};  // in the order of the enum
+  const auto choose = [&format](const std::string& name) {
+    format = static_cast<present::Format>(std::ranges::find(kNames, name) - kNames.begin());
+  };
+  one_of(command.add_option_function<std::string>(
+             "--format", choose, "How the answer is written; ndjson: one JSON object per row and line"),
+         kNames);
 }
 
 std::string study_name(const std::string& study) {
@@ -64,8 +77,12 @@ std::string study_name(const std::string& study) {
 bool is_known(const std::string& study, const store::Catalogue& catalogue) {
   const auto studies = catalogue.studies();
   if (study.empty() || std::ranges::find(studies, study) != studies.end()) return true;
-  fmt::print(stderr, "no study called \"{}\" was run here; there {} {}\n", study, studies.size() == 1 ? "is" : "are",
-             studies.empty() ? "none" : fmt::format("{}", fmt::join(studies, ", ")));
+  const std::string near = study::nearest(study, studies);
+  fmt::print(stderr, "no study called \"{}\" was run here; {}\n", study,
+             !near.empty() ? fmt::format("did you mean \"{}\"?", near)
+             : studies.empty()
+                 ? "there are none"
+                 : fmt::format("there {} {}", studies.size() == 1 ? "is" : "are", fmt::join(studies, ", ")));
   return false;
 }
 

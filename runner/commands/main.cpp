@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <vector>
 
 #include "runner/cluster/scheduler.h"
 #include "runner/commands/command.h"
+#include "runner/commands/words.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/provenance.h"
 #include "runner/store/run_folder.h"
@@ -26,19 +26,6 @@ constexpr const char* kExamples =
     "  runner trend density --of tip_resistance_mean --against bed:solid_fraction -o density.svg\n"
     "  runner check my_study.json                        compare with published and with accepted values\n"
     "  runner show 1a2b3c4d5e\n";
-
-/// `runner STUDY` means `runner run STUDY`.
-std::vector<std::string> with_default_command(int count, char** arguments, const CLI::App& app) {
-  std::vector<std::string> words(arguments + 1, arguments + count);
-  if (words.empty() || words[0].starts_with("-")) return words;
-  const auto all = [](const CLI::App*) { return true; };
-  for (const CLI::App* command : app.get_subcommands(all)) {
-    if (command->get_name() == words[0]) return words;
-  }
-  const bool is_study = words[0].ends_with(".json") || std::filesystem::is_regular_file(words[0]);
-  if (is_study) words.insert(words.begin(), "run");
-  return words;
-}
 
 int run_program(int count, char** arguments) {
   CLI::App app("Seapile: driving piles into granular soil, study by study.", "runner");
@@ -64,16 +51,20 @@ int run_program(int count, char** arguments) {
   commands::add_show(app, call);
   commands::add_verify(app, call);
   commands::add_reindex(app, call);
+  commands::add_new(app, call);
+  commands::add_schema(app, call);
+  commands::add_completion(app, call);
   commands::add_exec(app, call);
+  app.add_flag("--no-color")->description("No colours, on a terminal either; as the environment's NO_COLOR does");
   try {
-    auto words = with_default_command(count, arguments, app);
+    auto words = commands::words_of(count, arguments, app);
+    if (const auto objection = commands::objection(words, app); !objection.empty())
+      throw commands::UsageError(objection);
     std::reverse(words.begin(), words.end());  // CLI11 takes them last first
     app.parse(std::move(words));
+    return call();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? execute::kDone : execute::kBadInput;
-  }
-  try {
-    return call();
   } catch (const study::BadInput& error) {
     for (const base::Problem& problem : error.problems) {
       fmt::print(stderr, "{}\n", study::sentence(error.file, problem));

@@ -4,6 +4,7 @@
 
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/execute/tint.h"
 #include "runner/present/replicates.h"
 #include "runner/present/table.h"
 #include "runner/store/catalogue.h"
@@ -29,14 +30,17 @@ int query(const QueryArguments& arguments) {
   }
   // A table is read by people, who are told how far it carries; a program gets the table alone.
   const bool for_people = arguments.format == present::Format::table;
+  const auto print = [&](const std::string& text) {
+    fmt::print("{}", for_people ? execute::tinted(text, stdout) : text);
+  };
   if (!arguments.each && !study.empty() && present::has_replicates(table)) {
     const present::Grouped grouped = present::group_query(table);
-    fmt::print("{}", present::text(grouped.table, arguments.format, grouped.means));
+    print(present::text(grouped.table, arguments.format, grouped.means));
     fmt::print(for_people ? stdout : stderr, "{}{}", for_people ? "\n" : "",
                present::remark(grouped, arguments.format));
     return execute::kDone;
   }
-  fmt::print("{}", present::text(table, arguments.format));
+  print(present::text(table, arguments.format));
   const auto kind = std::ranges::find(table.columns, "kind") - table.columns.begin();
   const bool packings =
       std::ranges::any_of(table.rows, [&](const auto& row) { return row[kind] != store::Cell{"flow"}; });

@@ -13,6 +13,7 @@
 #include "runner/commands/packings.h"
 #include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/execute/tint.h"
 #include "runner/present/edge_figure.h"
 #include "runner/present/run_text.h"
 #include "runner/present/summary.h"
@@ -61,7 +62,7 @@ void show(const study::Study& study, const execute::Campaign& campaign, const fs
     results.push_back({outcome.case_id, outcome.labels, outcome.word, outcome.run_folder, outcome.bed_folder,
                        kind_of(study.cases[i].scene)});
   }
-  fmt::print("{}", present::closing_text(results));
+  fmt::print("{}", execute::tinted(present::closing_text(results), stdout));
   draw(study, results, root);
 }
 
@@ -108,7 +109,8 @@ int run_edge(const RunArguments& arguments) {
       execute::Campaign campaign(to_run, arguments.campaign);
       if (const auto objection = execute::objection(campaign.sharing()); !objection.empty())
         throw UsageError(objection);
-      for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
+      for (const std::string& line : execute::describe(campaign.plan()))
+        fmt::print(stderr, "{}\n", execute::tinted(line, stderr));
       say_what_is_built(to_run);
       if (arguments.dry_run) return execute::kDone;
       const int code = campaign.carry_out();
@@ -150,7 +152,8 @@ int run(const RunArguments& arguments) {
       options.packings = more_packings(study, root);
       if (options.packings) continue;
     }
-    for (const std::string& line : execute::describe(campaign.plan())) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : execute::describe(campaign.plan()))
+      fmt::print(stderr, "{}\n", execute::tinted(line, stderr));
     if (arguments.dry_run || !idle) say_what_is_built(study);
     if (arguments.dry_run) return execute::kDone;
     if (idle) fmt::print(stderr, "nothing to run: every case is fresh\n");

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <numeric>
 
+#include "runner/execute/tint.h"
+
 namespace seapile::execute {
 namespace {
 
@@ -144,7 +146,7 @@ Watch Display::watch() {
 
 void Display::event(const std::string& verb, std::size_t task, const std::string& more) {
   if (terminal_) fmt::print(stream_, "\r\x1b[K");
-  fmt::print(stream_, "{:<9}  {}{}\n", verb, plan_.tasks[task].name, more);
+  fmt::print(stream_, "{}\n", tinted(fmt::format("{:<9}  {}{}", verb, plan_.tasks[task].name, more), stream_));
   std::fflush(stream_);
   if (terminal_) redraw();
 }

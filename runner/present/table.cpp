@@ -171,23 +171,38 @@ std::string to_csv(const Table& table) {
   return text;
 }
 
+using Json = nlohmann::ordered_json;
+
+/// Adds the cells of a row by their columns' names. What is absent or no finite number is null.
+void add_row(Json& object, const Table& table, const std::vector<Cell>& row) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    Json& cell = object[table.columns[i]];
+    if (const auto* value = std::get_if<double>(&row[i]); value && std::isfinite(*value)) cell = *value;
+    if (const auto* words = std::get_if<std::string>(&row[i])) cell = *words;
+  }
+}
+
+std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string to_json(const Table& table) {
-  using nlohmann::ordered_json;
-  ordered_json columns = ordered_json::array(), rows = ordered_json::array();
+  Json columns = Json::array(), rows = Json::array();
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     columns.push_back({{"name", table.columns[i]}, {"unit", table.units[i]}});
   }
+  for (const auto& row : table.rows) add_row(rows.emplace_back(Json::object()), table, row);
+  return dumped({{"schema", "runner/table/1"}, {"columns", columns}, {"rows", rows}}, 1);
+}
+
+std::string to_ndjson(const Table& table) {
+  std::string text;
   for (const auto& row : table.rows) {
-    ordered_json object = ordered_json::object();
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      ordered_json& cell = object[table.columns[i]];
-      if (const auto* value = std::get_if<double>(&row[i]); value && std::isfinite(*value)) cell = *value;
-      if (const auto* words = std::get_if<std::string>(&row[i])) cell = *words;
-    }
-    rows.push_back(std::move(object));
+    Json object = {{"schema", "runner/row/1"}};
+    add_row(object, table, row);
+    text += dumped(object, -1);
   }
-  const ordered_json document = {{"schema", "runner/table/1"}, {"columns", columns}, {"rows", rows}};
-  return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return text;
 }
 
 }  // namespace
@@ -207,6 +222,8 @@ std::string text(const Table& table, Format format, const std::vector<std::size_
       return to_csv(table);
     case Format::json:
       return to_json(table);
+    case Format::ndjson:
+      return to_ndjson(table);
   }
   return "";
 }

@@ -11,9 +11,10 @@
 namespace seapile::present {
 
 enum class Format {
-  table,  ///< aligned text; large numbers with a prefix of their unit ("kPa"), four significant digits
-  csv,    ///< RFC 4180, units in the header ("depth[m]"), every digit
-  json,   ///< "schema": "runner/table/1"
+  table,   ///< aligned text; large numbers with a prefix of their unit ("kPa"), four significant digits
+  csv,     ///< RFC 4180, units in the header ("depth[m]"), every digit
+  json,    ///< "schema": "runner/table/1"
+  ndjson,  ///< a JSON object per row and line, each by itself: "schema": "runner/row/1"; units as json's columns say
 };
 
 /// `means`: the columns of means, "x.mean", each followed by the two ends of its interval, "x.low" and "x.high". The

@@ -1,9 +1,13 @@
 #include "runner/study/schema.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdint>
 
 #include "runner/study/field_reader.h"
+#include "runner/study/unit.h"
 #include "solver/scene/spec.h"
 
 namespace seapile::study {
@@ -13,6 +17,30 @@ using Kind = SchemaNode::Kind;
 
 template <class Spec>
 std::vector<SchemaNode> members();
+
+/// What a member is by default, as JSON text.
+template <class T>
+std::string fallback_of(const T& member) {
+  if constexpr (kIsOptional<T>) {
+    return member ? fallback_of(*member) : "null";
+  } else if constexpr (kIsVariant<T>) {
+    return fmt::format("\"{}\"", alternative_names(member)[member.index()]);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return member ? "true" : "false";
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return number_text(static_cast<double>(member));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return fmt::format("\"{}\"", member);
+  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+    std::vector<std::string> numbers;
+    for (const double number : member) numbers.push_back(number_text(number));
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
+  } else if constexpr (std::is_enum_v<T>) {
+    return fmt::format("\"{}\"", enum_names<T>()[static_cast<std::size_t>(member)]);
+  } else {
+    return "";
+  }
+}
 
 template <class T>
 SchemaNode node_of(const base::Field& field) {
@@ -52,6 +80,7 @@ std::vector<SchemaNode> members() {
   std::vector<SchemaNode> nodes;
   const auto visit = [&](const base::Field& field, auto& member) {
     nodes.push_back(node_of<std::remove_cvref_t<decltype(member)>>(field));
+    nodes.back().fallback = fallback_of(member);
   };
   Spec spec;
   fields(visit, spec);

@@ -18,6 +18,7 @@ struct SchemaNode {
   bool nullable = false;
   std::vector<std::string> names;    ///< of a choice
   std::vector<SchemaNode> children;  ///< members of a spec, alternatives of a variant
+  std::string fallback = {};         ///< what a value is by default, as JSON text; "" of what has members
 
   const SchemaNode* child(std::string_view key) const;
   std::vector<std::string> child_names() const;

@@ -79,6 +79,12 @@ TEST(JsonTable, NamesItsSchemaAndHasNullForWhatIsAbsent) {
   EXPECT_TRUE(json.at("rows").at(1).at("max overlap").is_null());
 }
 
+TEST(NdjsonTable, HasAnObjectPerRowOnALineOfItsOwn) {
+  EXPECT_EQ(text({{"x", "y"}, {"m", ""}, {{0.5, std::string("a\nb")}, {Cell{}, std::nan("")}}}, Format::ndjson),
+            "{\"schema\":\"runner/row/1\",\"x\":0.5,\"y\":\"a\\nb\"}\n"
+            "{\"schema\":\"runner/row/1\",\"x\":null,\"y\":null}\n");
+}
+
 TEST(JsonTable, WhatJsonCannotSayIsNull) {
   const auto json = nlohmann::json::parse(text({{"x"}, {""}, {{std::nan("")}}}, Format::json));
   EXPECT_TRUE(json.at("rows").at(0).at("x").is_null());
