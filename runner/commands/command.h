@@ -25,6 +25,7 @@ void add_advise(CLI::App& app, Call& call);
 void add_trade(CLI::App& app, Call& call);
 void add_trend(CLI::App& app, Call& call);
 void add_check(CLI::App& app, Call& call);
+void add_report(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);

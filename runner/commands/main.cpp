@@ -53,6 +53,7 @@ int run_program(int count, char** arguments) {
   commands::add_advise(app, call);
   commands::add_trend(app, call);
   commands::add_check(app, call);
+  commands::add_report(app, call);
   commands::add_show(app, call);
   commands::add_verify(app, call);
   commands::add_reindex(app, call);
