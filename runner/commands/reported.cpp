@@ -85,30 +85,39 @@ struct Verdicts {
 Verdicts verdicts_of(const study::Study& study, const fs::path& root) {
   const CheckedCases cases(study, root);
   Verdicts verdicts{cases.with_published(), claimed(study, cases)};
-  for (auto& drift : cases.with_accepted(study::read_accepted(study::accepted_path(study))))
-    verdicts.comparisons.push_back(std::move(drift));
+  const auto accepted = study::read_accepted(study::accepted_path(study));
+  if (accepted.empty()) return verdicts;  // A list of what was never accepted would say nothing of the results.
+  for (auto& drift : cases.with_accepted(accepted)) verdicts.comparisons.push_back(std::move(drift));
   return verdicts;
 }
 
-/// "3 ok", "1 FAILED": how often each word occurs, in the order of first occurrence.
-void count(std::vector<present::ReportCount>& counts, const std::string& what, const ReportTable& table) {
+/// How often a word of one tone occurs.
+struct Tally {
+  std::string word;
+  Tone tone;
+  std::size_t number = 0;
+};
+
+void count(std::vector<Tally>& tallies, const ReportTable& table) {
   const auto column = std::ranges::find(table.table.columns, table.toned) - table.table.columns.begin();
-  std::vector<std::pair<std::pair<std::string, Tone>, std::size_t>> found;
-  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
-    const std::pair word{std::get<std::string>(table.table.rows[i][static_cast<std::size_t>(column)]), table.tones[i]};
-    const auto known = std::ranges::find(found, word, &decltype(found)::value_type::first);
-    if (known == found.end()) {
-      found.emplace_back(word, 1);
-    } else {
-      ++known->second;
-    }
+  for (std::size_t i = 0; i < table.tones.size(); ++i) {
+    const auto& word = std::get<std::string>(table.table.rows[i][static_cast<std::size_t>(column)]);
+    auto known =
+        std::ranges::find_if(tallies, [&](const Tally& one) { return one.word == word && one.tone == table.tones[i]; });
+    if (known == tallies.end()) known = tallies.insert(known, {word, table.tones[i]});
+    ++known->number;
   }
-  for (const auto& [word, number] : found)
-    counts.push_back({fmt::format("{} {}{} {}", number, what, number == 1 ? "" : "s", word.first), word.second});
+}
+
+/// "3 checks ok", "1 check FAILED".
+void add_counts(present::Report& report, const char* what, const std::vector<Tally>& tallies) {
+  for (const auto& [word, tone, number] : tallies)
+    report.counts.push_back({fmt::format("{} {}{} {}", number, what, number == 1 ? "" : "s", word), tone});
 }
 
 void add_checks(present::Report& report, ReportSection& section, const Verdicts& verdicts, bool packings) {
   using present::Against;
+  std::vector<Tally> checks, claims;
   for (const auto& [against, caption] : {std::pair(Against::published, "Checks against published values"),
                                          std::pair(Against::bounds, "Checks against bounds"),
                                          std::pair(Against::accepted, "Drift of our own accepted values")}) {
@@ -120,7 +129,7 @@ void add_checks(present::Report& report, ReportSection& section, const Verdicts&
     for (std::size_t i = 0; i < sources.size() && against == Against::published; ++i)
       table.notes.push_back(fmt::format("source {}: {}", i + 1, sources[i]));
     table.full = present::check_table(some);
-    count(report.counts, against == Against::accepted ? "drift check" : "check", table);
+    count(checks, table);
     section.blocks.emplace_back(std::move(table));
   }
   if (!verdicts.claims.empty()) {
@@ -128,9 +137,11 @@ void add_checks(present::Report& report, ReportSection& section, const Verdicts&
     for (const present::Claimed& claim : verdicts.claims) table.tones.push_back(tone_of(claim));
     table.notes = present::claim_sentences(verdicts.claims);
     table.full = present::with_claims(present::check_table({}), verdicts.claims);
-    count(report.counts, "claim", table);
+    count(claims, table);
     section.blocks.emplace_back(std::move(table));
   }
+  add_counts(report, "check", checks);
+  add_counts(report, "claim", claims);
   auto remarks =
       lines_of(present::check_remark(verdicts.comparisons, packings) + present::claim_remark(verdicts.claims));
   if (verdicts.comparisons.empty() && verdicts.claims.empty())

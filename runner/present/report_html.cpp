@@ -55,13 +55,18 @@ ordered_json json_of(const ReportText& words) { return {{"type", "text"}, {"para
 ordered_json json_of(const ReportTable& table) {
   ordered_json columns = ordered_json::array(), tones = ordered_json::array();
   for (const ShownColumn& column : shown_columns(table.table, table.means)) {
+    const bool empty = std::ranges::all_of(column.cells, [](const std::string& cell) { return trimmed(cell) == "-"; });
+    if (empty && !column.cells.empty()) continue;
+    const bool toned = !table.toned.empty() && column.name == table.toned;
     ordered_json cells = ordered_json::array();
     for (const std::string& cell : column.cells) cells.push_back(trimmed(cell));
-    columns.push_back({{"name", column.name},
-                       {"unit", column.unit},
-                       {"numbers", column.numbers},
-                       {"toned", !table.toned.empty() && column.name == table.toned},
-                       {"cells", std::move(cells)}});
+    // A verdict comes first: on a narrow screen it would be out of sight at the end.
+    columns.insert(toned ? columns.begin() : columns.end(),
+                   ordered_json{{"name", column.name},
+                                {"unit", column.unit == "-" ? "" : column.unit},
+                                {"numbers", column.numbers},
+                                {"toned", toned},
+                                {"cells", std::move(cells)}});
   }
   for (const Tone tone : table.tones) tones.push_back(name_of(tone));
   return {{"type", "table"},

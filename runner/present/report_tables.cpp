@@ -17,10 +17,9 @@ using store::Table;
 constexpr std::size_t kShownDigits = 10;  // of a case id
 
 /// What tells how steady a run was, in the order of the columns.
-constexpr std::string_view kMonitors[] = {
-    "steps",        "steps_rejected", "step_smallest",      "overlap_max", "overlap_p999_max",
-    "residual_max", "energy_error",   "volume_drift",       "mass_defect", "surface_leak",
-    "lowest_shape", "meshes",         "iterations_per_step"};
+constexpr std::string_view kMonitors[] = {"steps",        "steps_rejected", "step_smallest", "overlap_max",
+                                          "residual_max", "energy_error",   "volume_drift",  "mass_defect",
+                                          "surface_leak", "lowest_shape",   "meshes",        "iterations_per_step"};
 
 const simulation::Metric* metric_of(const ReportRun& run, std::string_view name) {
   const auto& metrics = run.manifest.result.metrics;

@@ -110,6 +110,12 @@ function scaleOf(axis, more) {
   };
 }
 
+// A band may reach below nothing where no curve does; depth and resistance begin at 0 then.
+function leastOf(block, axis) {
+  const values = block.lines.filter((line) => line.kind !== "band").flatMap((line) => line[axis]);
+  return block.downwards && values.every((value) => value === null || value >= 0) ? 0 : undefined;
+}
+
 function drawChart(canvas, block) {
   const datasets = block.lines.map((line) => datasetOf(block, line));
   for (const line of block.lines) if (line.kind === "reference") datasets.push(toleranceOf(block, line));
@@ -122,8 +128,8 @@ function drawChart(canvas, block) {
       interaction: { mode: "nearestPoint", intersect: false },
       plugins: { legend: { display: false }, tooltip: tooltipOf(block) },
       scales: {
-        x: scaleOf(block.x, { position: block.downwards ? "top" : "bottom", beginAtZero: block.downwards }),
-        y: scaleOf(block.y, { reverse: block.downwards, beginAtZero: block.downwards }),
+        x: scaleOf(block.x, { position: block.downwards ? "top" : "bottom", min: leastOf(block, "x") }),
+        y: scaleOf(block.y, { reverse: block.downwards, min: leastOf(block, "y") }),
       },
     },
   });

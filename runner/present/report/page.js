@@ -72,11 +72,10 @@ function csvOfChart(block) {
 function cellOf(block, column, row) {
   const text = column.cells[row];
   const inside = column.toned ? [element("span", { className: block.tones[row], text })] : [text];
-  const first = column === block.columns[0];
+  const first = column === block.columns.find((one) => !one.toned);
   const cell = element(first ? "th" : "td", {}, inside);
   if (first) cell.scope = "row";
-  if (column.numbers) cell.className = "number";
-  else if (text.length > 40) cell.className = "long";
+  cell.className = text.length > 40 ? "long" : column.numbers ? "number" : "short";
   return cell;
 }
 
@@ -97,11 +96,14 @@ function notesOf(block) {
   return block.notes.map((text) => element("p", { className: "note", text }));
 }
 
+const kMostUpright = 10;  // columns that fit on an upright page
+
 const draw = {
-  text: (block) => element("div", { className: "block" }, block.paragraphs.map((text) => element("p", { text }))),
+  text: (block) => element("ul", { className: "block notes" }, block.paragraphs.map((text) => element("li", { text }))),
 
   table: (block) => {
-    const inside = [element("div", { className: "scroll" }, [tableOf(block)]),
+    const size = block.columns.length > kMostUpright ? "scroll wide" : "scroll";
+    const inside = [element("div", { className: size }, [tableOf(block)]),
                     element("div", { className: "bar" }, [copyButton(block.caption, () => block.csv)]), ...notesOf(block)];
     if (!block.folded) return element("div", { className: "block" }, inside);
     return element("details", { className: "block" },
