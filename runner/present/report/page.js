@@ -96,7 +96,7 @@ function notesOf(block) {
   return block.notes.map((text) => element("p", { className: "note", text }));
 }
 
-const kMostUpright = 10;  // columns that fit on an upright page
+const kMostUpright = 13;  // columns that fit on an upright page
 
 const draw = {
   text: (block) => element("ul", { className: "block notes" }, block.paragraphs.map((text) => element("li", { text }))),
