@@ -49,20 +49,23 @@ struct ReportCommand : testing::Test {
     return json::parse(html.substr(first, html.find("</script>", first) - first));
   }
   static json section(const std::string& id) {
-    for (const json& one : data().at("sections")) {
+    const json all = data();
+    for (const json& one : all.at("sections")) {
       if (one.at("id") == id) return one.at("blocks");
     }
     return json::array();
   }
   static json block(const std::string& id, const std::string& type, std::size_t place = 0) {
-    for (const json& one : section(id)) {
+    const json all = section(id);
+    for (const json& one : all) {
       if (one.at("type") == type && place-- == 0) return one;
     }
     return {};
   }
   static std::vector<std::string> counts() {
     std::vector<std::string> words;
-    for (const json& one : data().at("counts")) words.push_back(one.at("words"));
+    const json all = data();
+    for (const json& one : all.at("counts")) words.push_back(one.at("words"));
     return words;
   }
   static Workplace* ran;
