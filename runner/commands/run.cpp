@@ -32,11 +32,6 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-present::SceneKind kind_of(const scene::SceneSpec& scene) {
-  if (scene.jet) return present::SceneKind::jet;
-  return scene.basin ? present::SceneKind::basin : present::SceneKind::grains;
-}
-
 /// A picture for the kinds of case that have one: of drives STUDY.svg, of jets STUDY_surface.svg.
 void draw(const study::Study& study, const std::vector<present::CaseResult>& results, const fs::path& root) {
   const auto draw_as = [&](const std::string& name, const auto& figure) {
@@ -60,7 +55,7 @@ void show(const study::Study& study, const execute::Campaign& campaign, const fs
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const execute::CaseOutcome& outcome = outcomes[i];
     results.push_back({outcome.case_id, outcome.labels, outcome.word, outcome.run_folder, outcome.bed_folder,
-                       kind_of(study.cases[i].scene)});
+                       present::kind_of(study.cases[i].scene)});
   }
   fmt::print("{}", execute::tinted(present::closing_text(results), stdout));
   draw(study, results, root);

@@ -80,15 +80,6 @@ std::string count_text(const Comparison& comparison) {
   return n == all ? fmt::format("{}", n) : fmt::format("{} of {}", n, all);
 }
 
-/// Every source once, in the order of first occurrence.
-std::vector<std::string> sources_of(const std::vector<Comparison>& comparisons) {
-  std::vector<std::string> sources;
-  for (const Comparison& comparison : comparisons) {
-    if (std::ranges::find(sources, comparison.source) == sources.end()) sources.push_back(comparison.source);
-  }
-  return sources;
-}
-
 Cell number(const std::optional<double>& value) { return value ? number(*value) : Cell{}; }
 
 const char* name_of(Against against) {
@@ -103,7 +94,7 @@ void align_all_right(Table& table, std::initializer_list<const char*> names) {
 
 /// Values within bounds that a study sets itself, for people: in the metric's own unit and in six digits, as a bound is
 /// often many times larger than what it bounds.
-std::string bounds_text(const std::vector<Comparison>& comparisons) {
+Table bounds_table(const std::vector<Comparison>& comparisons) {
   Table table = with_labels(comparisons, {"metric", "case"}, {"n", "value", "unit", "at least", "at most", "verdict"});
   const auto digits = [](const std::optional<double>& value) {
     return value && !std::isnan(*value) ? fmt::format("{:.6g}", *value) : std::string("-");
@@ -122,12 +113,12 @@ std::string bounds_text(const std::vector<Comparison>& comparisons) {
     table.rows[i] = std::move(row);
   }
   align_all_right(table, {"n", "value", "at least", "at most"});
-  return text(table, Format::table);
+  return table;
 }
 
 /// The comparisons of one kind as a table for people. Of drift every row is one run, and what it was accepted of is
 /// told where it failed.
-std::string table_text(const std::vector<Comparison>& comparisons, Against against) {
+Table reference_table(const std::vector<Comparison>& comparisons, Against against) {
   const bool published = against == Against::published;
   const auto sources = sources_of(comparisons);
   std::vector<std::string> behind = {"value",      "unit",      published ? "reference" : "accepted",
@@ -154,14 +145,7 @@ std::string table_text(const std::vector<Comparison>& comparisons, Against again
     table.rows[i] = std::move(row);
   }
   align_all_right(table, {"n", "value", "reference", "accepted", "difference", "tolerance"});
-  return text(table, Format::table);
-}
-
-std::vector<Comparison> of_kind(const std::vector<Comparison>& comparisons, Against against) {
-  std::vector<Comparison> chosen;
-  std::ranges::copy_if(comparisons, std::back_inserter(chosen),
-                       [&](const Comparison& comparison) { return comparison.against == against; });
-  return chosen;
+  return table;
 }
 
 /// "FAILED  q_c, pile.tip=flat: ...".
@@ -183,6 +167,25 @@ std::string failure(const Comparison& comparison, const Judgement& judgement) {
 }
 
 }  // namespace
+
+std::vector<Comparison> of_kind(const std::vector<Comparison>& comparisons, Against against) {
+  std::vector<Comparison> chosen;
+  std::ranges::copy_if(comparisons, std::back_inserter(chosen),
+                       [&](const Comparison& comparison) { return comparison.against == against; });
+  return chosen;
+}
+
+std::vector<std::string> sources_of(const std::vector<Comparison>& comparisons) {
+  std::vector<std::string> sources;
+  for (const Comparison& comparison : comparisons) {
+    if (std::ranges::find(sources, comparison.source) == sources.end()) sources.push_back(comparison.source);
+  }
+  return sources;
+}
+
+Table shown_checks(const std::vector<Comparison>& comparisons, Against against) {
+  return against == Against::bounds ? bounds_table(comparisons) : reference_table(comparisons, against);
+}
 
 Table check_table(const std::vector<Comparison>& comparisons) {
   Table table = with_labels(comparisons, {"against", "metric", "case"},
@@ -214,13 +217,16 @@ std::string check_text(const std::vector<Comparison>& comparisons) {
   const auto published = of_kind(comparisons, Against::published), accepted = of_kind(comparisons, Against::accepted);
   std::string all;
   if (!published.empty()) {
-    all += table_text(published, Against::published) + "\n";
+    all += text(shown_checks(published, Against::published), Format::table) + "\n";
     const auto sources = sources_of(published);
     for (std::size_t i = 0; i < sources.size(); ++i) all += fmt::format("source {}: {}\n", i + 1, sources[i]);
   }
   const auto bounds = of_kind(comparisons, Against::bounds);
-  if (!bounds.empty()) all += fmt::format("{}bounds\n\n{}", all.empty() ? "" : "\n", bounds_text(bounds));
-  if (!accepted.empty()) all += fmt::format("\ndrift\n\n{}", table_text(accepted, Against::accepted));
+  if (!bounds.empty())
+    all += fmt::format("{}bounds\n\n{}", all.empty() ? "" : "\n",
+                       text(shown_checks(bounds, Against::bounds), Format::table));
+  if (!accepted.empty())
+    all += fmt::format("\ndrift\n\n{}", text(shown_checks(accepted, Against::accepted), Format::table));
   return all;
 }
 

@@ -14,6 +14,15 @@ namespace seapile::present {
 /// "at_most", "verdict", "source", "reason"; numbers in the row's own unit.
 store::Table check_table(const std::vector<Comparison>& comparisons);
 
+/// Those of one kind, in their order.
+std::vector<Comparison> of_kind(const std::vector<Comparison>& comparisons, Against against);
+
+/// Every source once, in the order of first occurrence: the numbers in the column "source" of shown_checks().
+std::vector<std::string> sources_of(const std::vector<Comparison>& comparisons);
+
+/// A row for people of each comparison, all of one kind, digits as their tolerances ask.
+store::Table shown_checks(const std::vector<Comparison>& comparisons, Against against);
+
 /// The tables for people, digits as the tolerances ask, and below the first the sources of published values.
 std::string check_text(const std::vector<Comparison>& comparisons);
 

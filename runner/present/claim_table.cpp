@@ -134,8 +134,7 @@ Table with_claims(Table checks, const std::vector<Claimed>& claims) {
   return checks;
 }
 
-std::string claim_text(const std::vector<Claimed>& claims) {
-  if (claims.empty()) return "";
+Table shown_claims(const std::vector<Claimed>& claims) {
   const bool expected = std::ranges::any_of(claims, [](const Claimed& claim) { return !claim.expect.empty(); });
   std::vector<Labels> labels;
   for (const Claimed& claim : claims) labels.push_back(claim.common);
@@ -148,8 +147,6 @@ std::string claim_text(const std::vector<Claimed>& claims) {
   table.units.insert(table.units.begin(), "");
   table.units.resize(table.columns.size());
 
-  std::string below;
-  std::size_t told = 0;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     const Claimed& claim = claims[i];
     const ClaimVerdict verdict = judge(claim);
@@ -166,15 +163,29 @@ std::string claim_text(const std::vector<Claimed>& claims) {
           words(verdict)})
       row.push_back(words_or_nothing(text));
     if (expected) row.push_back(words_or_nothing(claim.expect));
-    if (claim.place == told) continue;
-    told = claim.place;
-    const std::string what = claim.compared == Compared::value ? "" : words(claim.compared) + " of ";
-    below += fmt::format("claim {}: {} ({}{})\n", name_of(claim), claim.text, what, claim.metric);
   }
   for (std::size_t column = first + 1; column < table.columns.size(); ++column) {
     if (table.columns[column] == "n" || table.columns[column] == "margin") align_right(table, column);
   }
-  return fmt::format("claims\n\n{}\n{}", text(table, Format::table), below);
+  return table;
+}
+
+std::vector<std::string> claim_sentences(const std::vector<Claimed>& claims) {
+  std::vector<std::string> sentences;
+  std::size_t told = 0;
+  for (const Claimed& claim : claims) {
+    if (claim.place == told) continue;
+    told = claim.place;
+    const std::string what = claim.compared == Compared::value ? "" : words(claim.compared) + " of ";
+    sentences.push_back(fmt::format("claim {}: {} ({}{})", name_of(claim), claim.text, what, claim.metric));
+  }
+  return sentences;
+}
+
+std::string claim_text(const std::vector<Claimed>& claims) {
+  if (claims.empty()) return "";
+  return fmt::format("claims\n\n{}\n{}\n", text(shown_claims(claims), Format::table),
+                     fmt::join(claim_sentences(claims), "\n"));
 }
 
 std::string claim_remark(const std::vector<Claimed>& claims) {

@@ -14,6 +14,12 @@ namespace seapile::present {
 /// The same table where there are no claims.
 store::Table with_claims(store::Table checks, const std::vector<Claimed>& claims);
 
+/// A row for people of each case or pair of cases of each claim.
+store::Table shown_claims(const std::vector<Claimed>& claims);
+
+/// What each claim says, and of which metric: "claim 12: the flat tip meets more (ratio of tip_resistance_mean)".
+std::vector<std::string> claim_sentences(const std::vector<Claimed>& claims);
+
 /// The table for people, and below it what each claim says; "" without claims.
 std::string claim_text(const std::vector<Claimed>& claims);
 

@@ -59,13 +59,17 @@ std::optional<store::Manifest> manifest_of(const std::filesystem::path& run_fold
   return run_folder.empty() ? std::nullopt : std::optional(store::read_manifest(run_folder));
 }
 
-/// Whether a case has a run of that kind that came to its end.
+}  // namespace
+
+SceneKind kind_of(const scene::SceneSpec& scene) {
+  if (scene.jet) return SceneKind::jet;
+  return scene.basin ? SceneKind::basin : SceneKind::grains;
+}
+
 bool is_completed(const CaseResult& result, std::string_view kind) {
   const auto run = manifest_of(result.run_folder);
   return run && run->header.kind == kind && run->result.outcome == simulation::Outcome::completed;
 }
-
-}  // namespace
 
 store::Table summary(const std::vector<CaseResult>& cases) {
   std::vector<Labels> labels;
@@ -120,8 +124,8 @@ SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseRes
   return figure;
 }
 
-std::string closing_text(const std::vector<CaseResult>& cases) {
-  const store::Table each = summary(cases);
+Closing closing(const std::vector<CaseResult>& cases) {
+  store::Table each = summary(cases);
   const std::vector<Headline> headlines = headlines_of(cases);
   std::vector<Role> roles;
   for (const std::string& column : each.columns) {
@@ -133,10 +137,16 @@ std::string closing_text(const std::vector<CaseResult>& cases) {
                                                         : Role::key);
   }
   const bool replicated = std::ranges::any_of(each.columns, [](const auto& column) { return column == kSeed; });
-  if (std::ranges::all_of(cases, is_water)) return text(each, Format::table);
-  if (!replicated) return text(each, Format::table) + "\n" + kOnePacking + "\n";
-  const Grouped grouped = group(each, roles);
-  return text(grouped.table, Format::table, grouped.means) + "\n" + remark(grouped, Format::table);
+  if (std::ranges::all_of(cases, is_water)) return {std::move(each), {}, ""};
+  if (!replicated) return {std::move(each), {}, std::string(kOnePacking) + "\n"};
+  Grouped grouped = group(each, roles);
+  std::string words = remark(grouped, Format::table);
+  return {std::move(grouped.table), std::move(grouped.means), std::move(words)};
+}
+
+std::string closing_text(const std::vector<CaseResult>& cases) {
+  const Closing end = closing(cases);
+  return text(end.table, Format::table, end.means) + (end.remark.empty() ? "" : "\n" + end.remark);
 }
 
 }  // namespace seapile::present

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runner/present/figure.h"
@@ -10,11 +11,14 @@
 #include "runner/present/surface_figure.h"
 #include "runner/present/table.h"
 #include "runner/store/catalogue.h"
+#include "solver/scene/spec.h"
 
 namespace seapile::present {
 
 /// A scene is a bed or a drive, a jet, or a basin of water. Only what has grains has a packing.
 enum class SceneKind { grains, jet, basin };
+
+SceneKind kind_of(const scene::SceneSpec& scene);
 
 /// One case of a study, done or not.
 struct CaseResult {
@@ -26,6 +30,9 @@ struct CaseResult {
   SceneKind kind = SceneKind::grains;
 };
 
+/// Whether a case has a run of that kind, "drive" or "flow", that came to its end. Throws store::StoreError.
+bool is_completed(const CaseResult& result, std::string_view kind);
+
 /// Labels, outcome, and the numbers that each kind of scene is known by. Throws store::StoreError.
 store::Table summary(const std::vector<CaseResult>& cases);
 
@@ -35,8 +42,17 @@ Figure resistance_figure(const std::string& title, const std::vector<CaseResult>
 /// The free surfaces of the completed jets as a figure, one curve per case. Throws store::StoreError.
 SurfaceFigure surface_figure(const std::string& title, const std::vector<CaseResult>& cases);
 
-/// The table that a study ends with, and how far its numbers carry: case by case, or, when the cases have replicates,
-/// packings put together. Throws store::StoreError.
+/// What a study ends with: case by case, or, when the cases have replicates, packings put together.
+struct Closing {
+  store::Table table;
+  std::vector<std::size_t> means;  ///< as text() takes them
+  std::string remark;              ///< how far the numbers carry, in whole lines; may be empty
+};
+
+/// Throws store::StoreError.
+Closing closing(const std::vector<CaseResult>& cases);
+
+/// The same for people. Throws store::StoreError.
 std::string closing_text(const std::vector<CaseResult>& cases);
 
 }  // namespace seapile::present

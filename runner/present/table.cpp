@@ -14,12 +14,7 @@ namespace {
 using store::Cell;
 using store::Table;
 
-/// One column as text, the units' prefix and the digits chosen for all of its rows together.
-struct Column {
-  std::string name, unit;
-  std::vector<std::string> cells;
-  bool numbers = false;  ///< aligned to the right
-};
+using Column = ShownColumn;
 
 /// Characters that a terminal shows: UTF-8 code points.
 std::size_t width(const std::string& text) {
@@ -121,12 +116,9 @@ std::string aligned(const std::string& text, std::size_t columns, bool right) {
 }
 
 std::string to_text(const Table& table, const std::vector<std::size_t>& means) {
-  std::vector<Column> columns;
+  const std::vector<Column> columns = shown_columns(table, means);
   std::vector<std::size_t> widths;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const bool has_interval = std::ranges::find(means, i) != means.end();
-    const Column& column = columns.emplace_back(has_interval ? as_means(table, i) : as_text(table, i));
-    if (has_interval) i += 2;
+  for (const Column& column : columns) {
     std::size_t most = std::max(width(column.name), width(column.unit));
     for (const std::string& cell : column.cells) most = std::max(most, width(cell));
     widths.push_back(most);
@@ -206,6 +198,16 @@ std::string to_ndjson(const Table& table) {
 }
 
 }  // namespace
+
+std::vector<ShownColumn> shown_columns(const Table& table, const std::vector<std::size_t>& means) {
+  std::vector<ShownColumn> columns;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const bool has_interval = std::ranges::find(means, i) != means.end();
+    columns.push_back(has_interval ? as_means(table, i) : as_text(table, i));
+    if (has_interval) i += 2;
+  }
+  return columns;
+}
 
 double prefixed(std::string& unit, double most) {
   if (unit != "Pa" && unit != "N/m" && unit != "J/m" && unit != "Pa/m") return 1;

@@ -22,6 +22,16 @@ enum class Format {
 /// the mean, or the value alone where there is no interval.
 std::string text(const store::Table& table, Format format, const std::vector<std::size_t>& means = {});
 
+/// A column as people see it: the unit's prefix and the digits chosen for all of its rows together.
+struct ShownColumn {
+  std::string name, unit;
+  std::vector<std::string> cells;
+  bool numbers = false;  ///< aligned to the right
+};
+
+/// The columns of the table for people, `means` as in text().
+std::vector<ShownColumn> shown_columns(const store::Table& table, const std::vector<std::size_t>& means = {});
+
 /// The factor that values of a unit are shown with when the largest is `most`; the unit gets its prefix ("kPa").
 double prefixed(std::string& unit, double most);
 
