@@ -66,8 +66,6 @@ int check(const CheckArguments& arguments) {
   } else {
     fmt::print("{}", present::text(present::with_claims(present::check_table(comparisons), claims), arguments.format));
   }
-  fmt::print(for_people ? stdout : stderr, "{}{}", present::check_remark(comparisons, packings),
-             present::claim_remark(claims));
   if (!arguments.junit.empty())
     store::write_text(arguments.junit, present::junit_text(study.name, comparisons, claims));
   std::FILE* beside = for_people ? stdout : stderr;

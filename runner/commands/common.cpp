@@ -49,6 +49,8 @@ void add_sharing_options(CLI::App& command, execute::Sharing& sharing) {
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(true));
   command.add_flag("--oversubscribe", sharing.oversubscribe, "Let cases have more threads than there are cores");
+}
+
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names) {
   const auto objection = [names](std::string& word) {
     if (std::ranges::find(names, word) != names.end()) return std::string();
