@@ -28,6 +28,8 @@ void add_check(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);
 void add_verify(CLI::App& app, Call& call);
 void add_reindex(CLI::App& app, Call& call);
+void add_ingest(CLI::App& app, Call& call);
+void add_migrate(CLI::App& app, Call& call);
 void add_exec(CLI::App& app, Call& call);
 
 /// What the user asked for on the command line cannot be done as it stands; exit code 2.

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "runner/commands/command.h"
+#include "runner/commands/matching.h"
 
 namespace seapile::commands {
 
@@ -38,10 +38,7 @@ void add_format_option(CLI::App& command, present::Format& format) {
       ->type_name("FORMAT");
 }
 
-std::string study_name(const std::string& study) {
-  const bool is_file = study.ends_with(".json") || std::filesystem::is_regular_file(study);
-  return is_file ? study::read(study).name : study;
-}
+std::string study_name(const std::string& study) { return is_study_file(study) ? study::read(study).name : study; }
 
 bool is_known(const std::string& study, const store::Catalogue& catalogue) {
   const auto studies = catalogue.studies();

@@ -56,6 +56,8 @@ int run_program(int count, char** arguments) {
   commands::add_show(app, call);
   commands::add_verify(app, call);
   commands::add_reindex(app, call);
+  commands::add_ingest(app, call);
+  commands::add_migrate(app, call);
   commands::add_exec(app, call);
   try {
     auto words = with_default_command(count, arguments, app);
