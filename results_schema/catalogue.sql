@@ -1,7 +1,8 @@
--- The catalogue: <root>/catalogue.sqlite, version 1.
+-- The catalogue: <root>/catalogue.sqlite, version 2.
 --
 -- An index of the sealed run folders below <root>/cases and of the studies below <root>/studies: everything in it is
--- made again from those at any time. This text is compiled into the program. Numbers are SI.
+-- made again from those at any time. This text is compiled into the program. Numbers are SI. What older versions lacked
+-- is said in migrations/, one file for each version, which brings a catalogue of the version before to it.
 
 -- A study, as it was last planned.
 CREATE TABLE study (
@@ -28,6 +29,8 @@ CREATE TABLE kase (
   canonical TEXT NOT NULL,                                  -- canonical text, in which a bed is its case id
   bed_id    TEXT                                            -- case id of the bed; NULL: there is none
 ) STRICT;
+CREATE INDEX kase_by_kind ON kase (kind);
+CREATE INDEX kase_by_bed ON kase (bed_id);
 
 -- The parameters of a case: its newest run's scene, flattened to dotted paths ("pile.driving.constant.speed").
 -- The name of a choice stands under the path of the choice ("pile.tip" = 'flat'). Absent parts have two NULLs.
@@ -38,8 +41,10 @@ CREATE TABLE param (
   txt     TEXT,                                             -- value of anything else; lists as JSON
   PRIMARY KEY (case_id, path)
 ) STRICT, WITHOUT ROWID;
-CREATE INDEX param_by_num ON param (path, num);
-CREATE INDEX param_by_txt ON param (path, txt);
+-- Each row is in one of them.
+CREATE INDEX param_by_num ON param (path, num) WHERE num IS NOT NULL;
+CREATE INDEX param_by_txt ON param (path, txt) WHERE txt IS NOT NULL;
+CREATE INDEX param_absent ON param (path) WHERE num IS NULL AND txt IS NULL;
 
 -- A complete run of a case.
 CREATE TABLE run (
@@ -66,8 +71,23 @@ CREATE TABLE run (
   wall_seconds   REAL,                                      -- spent [s]
   peak_memory_mb REAL,                                      -- largest resident memory [MB]
   attempts       INTEGER NOT NULL,                          -- times that it was started or resumed
+  bytes          INTEGER NOT NULL,                          -- of its files, without the manifest
+  newest         INTEGER NOT NULL CHECK (newest IN (0, 1)), -- 1: of its case's runs; the triggers see to it
   UNIQUE (case_id, number)
 ) STRICT;
+CREATE UNIQUE INDEX run_newest ON run (case_id) WHERE newest = 1;
+CREATE INDEX run_by_outcome ON run (outcome, case_id) WHERE newest = 1;
+
+-- Whoever adds a run, with newest = 0, or removes one leaves exactly one newest run of the case.
+CREATE TRIGGER run_added AFTER INSERT ON run BEGIN
+  UPDATE run SET newest = 0 WHERE case_id = NEW.case_id AND newest = 1;
+  UPDATE run SET newest = 1
+    WHERE run_id = (SELECT run_id FROM run WHERE case_id = NEW.case_id ORDER BY number DESC LIMIT 1);
+END;
+CREATE TRIGGER run_removed AFTER DELETE ON run WHEN OLD.newest = 1 BEGIN
+  UPDATE run SET newest = 1
+    WHERE run_id = (SELECT run_id FROM run WHERE case_id = OLD.case_id ORDER BY number DESC LIMIT 1);
+END;
 
 -- The named numbers that a finished run is known by.
 CREATE TABLE metric (
@@ -90,15 +110,22 @@ CREATE TABLE artifact (
   PRIMARY KEY (run_id, path)
 ) STRICT, WITHOUT ROWID;
 
--- The parts of the solver, and whether the run was built with them.
+-- The parts of the solver, whether the run was built with them, and what decided it.
 CREATE TABLE part (
-  run_id  INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
-  name    TEXT NOT NULL,                                      -- such as "fluid"
-  ordinal INTEGER NOT NULL,                                   -- place in the run's own list, from 0
-  built   INTEGER NOT NULL CHECK (built IN (0, 1)),           -- 1: built
-  reason  TEXT NOT NULL,                                      -- why it was built, or left out
+  run_id    INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
+  name      TEXT NOT NULL,                                      -- such as "fluid"
+  ordinal   INTEGER NOT NULL,                                   -- place in the run's own list, from 0
+  built     INTEGER NOT NULL CHECK (built IN (0, 1)),           -- 1: built
+  reason    TEXT NOT NULL,                                      -- why it was built, or left out
+  decided   TEXT NOT NULL,                                      -- by whom: "scene", or "asked" (the scene's model)
+  quantity  TEXT,                                               -- number that was asked; NULL, as those below: none
+  number    REAL,                                               -- its value
+  threshold REAL,                                               -- from which on, or up to which, the part is needed
+  bound     REAL,                                               -- relative change of the answer that leaving it out stays below
+  answer    TEXT,                                               -- such as "frequency of a wave"
   PRIMARY KEY (run_id, name)
 ) STRICT, WITHOUT ROWID;
+CREATE INDEX part_by_name ON part (name, built);
 
 -- The versions of the numerics that a run was made with: they decide whether it is fresh.
 CREATE TABLE numerics (
@@ -118,4 +145,41 @@ CREATE TABLE cost (
   PRIMARY KEY (run_id, ordinal)
 ) STRICT, WITHOUT ROWID;
 
-PRAGMA user_version = 1;
+-- For questions by hand (runner query --sql): the newest run of each case.
+CREATE VIEW newest AS SELECT
+  run.run_id,              -- joins metric, artifact, part, numerics and cost
+  run.case_id,             -- joins param
+  run.number,              -- of the run
+  kase.kind,               -- "bed", "drive" or "flow"
+  run.outcome,             -- "completed" or "diverged"
+  run.reason,              -- of the outcome
+  run.time,                -- reached [s]
+  run.depth,               -- reached [m]
+  run.cpu_seconds,         -- spent [s]
+  run.wall_seconds,        -- spent [s]
+  run.peak_memory_mb,      -- largest resident memory [MB]
+  run.bytes,               -- of its files
+  run.folder,              -- relative to the root
+  kase.bed_id,             -- case id of its bed
+  run.bed_run              -- run of the bed that was used
+FROM run JOIN kase ON kase.case_id = run.case_id WHERE run.newest = 1;
+
+-- For questions by hand: the same for each case of each study, in the study's order; cases that have not been run, too.
+CREATE VIEW results AS SELECT
+  study.name AS study,                    -- the study
+  study_case.ordinal,                     -- place in the study, from 0
+  study_case.case_id,                     -- joins param
+  study_case.labels,                      -- JSON [[path, value with unit], ...]: what sets the case apart
+  run.run_id,                             -- joins metric, artifact, part, numerics and cost; NULL: not run
+  run.number,                             -- of the newest run
+  kase.kind,                              -- "bed", "drive" or "flow"
+  run.outcome,                            -- "completed" or "diverged"
+  run.time,                               -- reached [s]
+  run.depth,                              -- reached [m]
+  run.cpu_seconds,                        -- spent [s]
+  run.folder                              -- relative to the root
+FROM study JOIN study_case ON study_case.study_id = study.study_id
+LEFT JOIN run ON run.case_id = study_case.case_id AND run.newest = 1
+LEFT JOIN kase ON kase.case_id = run.case_id;
+
+PRAGMA user_version = 2;

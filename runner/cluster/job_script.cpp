@@ -97,7 +97,7 @@ constexpr const char* kIngest = R"job(
 store=$1
 runner=$2
 study=$3
-"$runner" reindex --store "$store"
+"$runner" ingest --store "$store"
 code=$?
 "$runner" jobs "$study" --store "$store"
 exit "$code"

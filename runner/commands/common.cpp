@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "runner/commands/command.h"
+#include "runner/commands/matching.h"
 #include "runner/study/fidelity.h"
 #include "runner/study/nearest.h"
 
@@ -71,10 +72,7 @@ void add_format_option(CLI::App& command, present::Format& format) {
          kNames);
 }
 
-std::string study_name(const std::string& study) {
-  const bool is_file = study.ends_with(".json") || std::filesystem::is_regular_file(study);
-  return is_file ? study::read(study).name : study;
-}
+std::string study_name(const std::string& study) { return is_study_file(study) ? study::read(study).name : study; }
 
 bool is_known(const std::string& study, const store::Catalogue& catalogue) {
   const auto studies = catalogue.studies();

@@ -55,6 +55,8 @@ int run_program(int count, char** arguments) {
   commands::add_new(app, call);
   commands::add_schema(app, call);
   commands::add_completion(app, call);
+  commands::add_ingest(app, call);
+  commands::add_migrate(app, call);
   commands::add_exec(app, call);
   app.add_flag("--no-color")->description("No colours, on a terminal either; as the environment's NO_COLOR does");
   try {

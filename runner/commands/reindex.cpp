@@ -10,10 +10,12 @@
 namespace seapile::commands {
 namespace {
 
-/// A damaged catalogue is kept under another name, and an empty one takes its place.
+/// A damaged catalogue, or one of another version, is kept under another name, and an empty one takes its place.
 store::Catalogue open_for_rebuilding(const std::string& root) {
   try {
-    return store::Catalogue::open(root);
+    auto catalogue = store::Catalogue::open(root);
+    catalogue.check();
+    return catalogue;
   } catch (const store::StoreError& error) {
     if (error.kind != store::StoreError::Kind::damaged) throw;
     fmt::print(stderr, "{}\n", error.what());

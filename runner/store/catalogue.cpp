@@ -28,12 +28,46 @@ Manifest read_complete(const Path& run_folder) {
   return manifest;
 }
 
+bool is_case_folder(const Path& folder) {
+  return is_case_id(folder.filename().string()) && !std::filesystem::is_symlink(folder);
+}
+
+/// The run folders of a case that have a manifest.
+void add_runs(const Path& case_folder, std::vector<Path>& into) {
+  for (const std::string& run : complete_runs(case_folder)) into.push_back(case_folder / run);
+}
+
 /// Every run folder below the root that has a manifest, in a fixed order.
 std::vector<Path> run_folders(const Path& root) {
   std::vector<Path> folders;
   for (const Path& folder : entries(root / "cases")) {
-    if (!is_case_id(folder.filename().string()) || std::filesystem::is_symlink(folder)) continue;
-    for (const std::string& run : complete_runs(folder)) folders.push_back(folder / run);
+    if (is_case_folder(folder)) add_runs(folder, folders);
+  }
+  return folders;
+}
+
+Path normal(const Path& path) {
+  Path whole = std::filesystem::absolute(path).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// Those of a run's folder, a case's, that of all cases, or the root.
+std::vector<Path> run_folders(const Path& root, const Path& folder) {
+  const Path relative = normal(folder).lexically_relative(normal(root));
+  const auto depth = relative == "." ? 0 : std::distance(relative.begin(), relative.end());
+  const bool below = depth == 0 || (*relative.begin() == "cases" && depth <= 3);
+  if (!below) {
+    throw std::invalid_argument(folder.string() + " does not lie in " + (root / "cases").string() +
+                                "/<case id>/<number>, where the catalogue looks for runs");
+  }
+  const Path whole = root / relative;
+  std::vector<Path> folders;
+  if (depth < 2) return run_folders(root);
+  if (depth == 2) {
+    if (is_case_folder(whole)) add_runs(whole, folders);
+  } else if (is_case_folder(whole.parent_path()) && run_number(run_name(whole)) > 0 &&
+             is_there(whole / kManifestFile)) {
+    folders.push_back(whole);
   }
   return folders;
 }
@@ -45,22 +79,38 @@ struct Catalogue::Impl {
   Database database;
 
   template <class Work>
-  auto transact(Work&& work) {
-    return guarded(database.file(), [&] {
-      SQLite::Transaction transaction(database.sqlite(), SQLite::TransactionBehavior::IMMEDIATE);
-      work(database.sqlite());
-      transaction.commit();
-    });
+  void transact(Work&& work) {
+    try {
+      guarded(database.file(), [&] {
+        SQLite::Transaction transaction(database.sqlite(), SQLite::TransactionBehavior::IMMEDIATE);
+        work(database.sqlite());
+        transaction.commit();
+      });
+    } catch (const StoreError&) {
+      database.distrust();
+      throw;
+    }
   }
 
-  void ingest(SQLite::Database& sqlite, const Path& run_folder, const Manifest& manifest) const {
+  /// One run after the other; those that do not hold are left out.
+  void ingest(SQLite::Database& sqlite, const std::vector<Path>& run_folders, Ingested& ingested) const {
+    for (const Path& folder : run_folders) {
+      try {
+        ++(ingest(sqlite, folder, read_complete(folder)) ? ingested.added : ingested.known);
+      } catch (const StoreError& error) {
+        ingested.left_out.push_back(error.what());
+      }
+    }
+  }
+
+  bool ingest(SQLite::Database& sqlite, const Path& run_folder, const Manifest& manifest) const {
     const Path relative = std::filesystem::absolute(run_folder)
                               .lexically_normal()
                               .lexically_relative(std::filesystem::absolute(root).lexically_normal());
     if (relative.empty() || *relative.begin() == "..") {
       throw std::invalid_argument(run_folder.string() + " is not below " + root.string());
     }
-    ingest_run(sqlite, relative.generic_string(), manifest);
+    return ingest_run(sqlite, relative.generic_string(), manifest);
   }
 };
 
@@ -101,34 +151,85 @@ void Catalogue::refresh(const Path& run_folder) {
   });
 }
 
+void Catalogue::check() { impl_->database.check(); }
+
+Ingested Catalogue::ingest_all(const std::vector<Path>& folders) {
+  std::vector<Path> all;
+  for (const Path& folder : folders) {
+    const std::vector<Path> runs = run_folders(impl_->root, folder);
+    all.insert(all.end(), runs.begin(), runs.end());
+  }
+  Ingested ingested;
+  impl_->transact([&](SQLite::Database& sqlite) { impl_->ingest(sqlite, all, ingested); });
+  return ingested;
+}
+
+Ingested Catalogue::ingest_missing() {
+  Ingested ingested;
+  const std::vector<StudyEntry> studies = read_studies(impl_->root);
+  impl_->transact([&](SQLite::Database& sqlite) {
+    SQLite::Statement same_study(sqlite, "SELECT 1 FROM study WHERE name = ? AND file_sha256 = ?");
+    for (const StudyEntry& study : studies) {
+      same_study.reset();
+      same_study.bind(1, study.name);
+      same_study.bind(2, study.file_sha256);
+      if (same_study.executeStep()) continue;
+      ingest_study(sqlite, study);
+      ++ingested.studies;
+    }
+    SQLite::Statement listed(sqlite, "SELECT 1 FROM run WHERE case_id = ? AND number = ?");
+    std::vector<Path> missing;
+    for (const Path& folder : run_folders(impl_->root)) {
+      listed.reset();
+      listed.bind(1, folder.parent_path().filename().string());
+      listed.bind(2, static_cast<std::int64_t>(run_number(run_name(folder))));
+      if (listed.executeStep()) {
+        ++ingested.known;
+      } else {
+        missing.push_back(folder);
+      }
+    }
+    impl_->ingest(sqlite, missing, ingested);
+  });
+  return ingested;
+}
+
 std::size_t Catalogue::rebuild(std::vector<std::string>* left_out) {
-  std::size_t count = 0;
+  Ingested ingested;
   const std::vector<StudyEntry> studies = read_studies(impl_->root);
   impl_->transact([&](SQLite::Database& sqlite) {
     sqlite.exec("DELETE FROM run; DELETE FROM kase; DELETE FROM study;");
     for (const StudyEntry& study : studies) ingest_study(sqlite, study);
-    for (const Path& folder : run_folders(impl_->root)) {
-      try {
-        impl_->ingest(sqlite, folder, read_complete(folder));
-        ++count;
-      } catch (const StoreError& error) {
-        if (left_out != nullptr) left_out->push_back(error.what());
-      }
-    }
+    impl_->ingest(sqlite, run_folders(impl_->root), ingested);
   });
-  return count;
+  if (left_out != nullptr) *left_out = std::move(ingested.left_out);
+  return ingested.added;
+}
+
+Table Catalogue::query_matching(const std::string& study, const Expression& where,
+                                const std::vector<std::string>& extra) const {
+  return guarded(impl_->database.file(), [&] { return query_table(impl_->database.sqlite(), study, where, extra); });
 }
 
 Table Catalogue::query(const std::string& study, const std::vector<std::string>& where,
                        const std::vector<std::string>& extra) const {
-  return guarded(impl_->database.file(), [&] { return query_table(impl_->database.sqlite(), study, where, extra); });
+  return query_matching(study, parse_all(where), extra);
+}
+
+Meaning Catalogue::meaning(const std::string& name, const std::string& study) const {
+  return guarded(impl_->database.file(), [&] {
+    const Names names(impl_->database.sqlite());
+    const Name found = names.find(name, study);
+    return Meaning{found.text, names.unit(found)};
+  });
 }
 
 std::vector<std::pair<Path, Labels>> Catalogue::runs(const std::string& study,
                                                      const std::vector<std::string>& where) const {
   return guarded(impl_->database.file(), [&] {
     std::vector<std::pair<Path, Labels>> runs;
-    for (ListedRun& run : list_runs(impl_->database.sqlite(), study, where)) {
+    SQLite::Database& sqlite = impl_->database.sqlite();
+    for (ListedRun& run : list_runs(sqlite, Names(sqlite), study, parse_all(where))) {
       runs.emplace_back(impl_->root / run.folder, std::move(run.labels));
     }
     return runs;
@@ -138,9 +239,10 @@ std::vector<std::pair<Path, Labels>> Catalogue::runs(const std::string& study,
 Path Catalogue::find(const std::string& prefix) const {
   return guarded(impl_->database.file(), [&]() -> Path {
     // Behind the last hex digit comes "g".
-    SQLite::Statement cases(impl_->database.sqlite(),
-                            "SELECT case_id, (SELECT folder FROM run WHERE run.case_id = kase.case_id "
-                            "ORDER BY number DESC LIMIT 1) FROM kase WHERE case_id >= ?1 AND case_id < ?1 || 'g'");
+    SQLite::Statement cases(
+        impl_->database.sqlite(),
+        "SELECT case_id, folder FROM run WHERE newest = 1 AND case_id >= ?1 AND case_id < ?1 || 'g' "
+        "ORDER BY case_id LIMIT 2");
     cases.bind(1, prefix);
     if (!cases.executeStep()) return {};
     const std::string id = cases.getColumn(0).getString();
@@ -175,12 +277,7 @@ std::optional<StudyEntry> Catalogue::entry(const std::string& study) const {
 }
 
 std::vector<std::string> Catalogue::studies() const {
-  return guarded(impl_->database.file(), [&] {
-    std::vector<std::string> names;
-    SQLite::Statement all(impl_->database.sqlite(), "SELECT name FROM study ORDER BY name");
-    while (all.executeStep()) names.push_back(all.getColumn(0).getString());
-    return names;
-  });
+  return guarded(impl_->database.file(), [&] { return study_names(impl_->database.sqlite()); });
 }
 
 }  // namespace seapile::store

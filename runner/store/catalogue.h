@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "runner/store/expression.h"
 #include "runner/store/past_cost.h"
 #include "runner/store/run_folder.h"
 
@@ -48,16 +49,34 @@ struct StudyEntry {
   std::vector<std::pair<std::string, Labels>> cases;
 };
 
+/// What ingest() did with run folders.
+struct Ingested {
+  std::size_t added = 0;              ///< runs that were not listed, or otherwise
+  std::size_t known = 0;              ///< runs that were listed as they are
+  std::size_t studies = 0;            ///< studies likewise added
+  std::vector<std::string> left_out;  ///< a sentence for each folder whose manifest or files do not hold
+};
+
+/// What a name of a query stands for.
+struct Meaning {
+  std::string name;  ///< in full
+  std::string unit;  ///< "-" for numbers without, "" for texts
+};
+
 class Catalogue {
  public:
   /// Opens or creates <root>/catalogue.sqlite for writing. Waits up to 20 s for another writer.
-  /// Throws StoreError::locked, ::damaged (also when it is newer than this program) or ::io.
+  /// Throws StoreError::locked, ::damaged (also when it is newer than this program, or older and to be migrated) or
+  /// ::io.
   static Catalogue open(const std::filesystem::path& root);
   /// Opens for reading only; writes nothing, creates nothing.
   static Catalogue open_read_only(const std::filesystem::path& root);
   /// For a catalogue that open() finds damaged: keeps the file under another name and opens an empty one, to be
   /// rebuilt.
   static Catalogue open_anew(const std::filesystem::path& root);
+
+  /// Reads all of the file; throws StoreError::damaged.
+  void check();
 
   /// Inserts or replaces a study and the order of its cases, also as a file below <root>/studies, from which rebuild()
   /// makes it again.
@@ -68,6 +87,11 @@ class Catalogue {
 
   /// Takes a run as its folder says it is now: forgotten when it is gone, else its rows anew. Throws StoreError.
   void refresh(const std::filesystem::path& run_folder);
+  /// Ingests every complete run in a folder below the root (a run's, a case's, or one that holds several) in one
+  /// transaction. Throws std::invalid_argument when a folder lies elsewhere.
+  Ingested ingest_all(const std::vector<std::filesystem::path>& folders);
+  /// The same of every run and study below the root that is not listed; what is listed is not read again.
+  Ingested ingest_missing();
 
   /// Forgets everything and ingests every study and every complete run folder below the root, in one transaction.
   /// Returns how many runs; `left_out` receives a sentence for each folder whose manifest or files do not hold.
@@ -75,13 +99,18 @@ class Catalogue {
 
   /// The runs of a study (all when ""), newest run of each case, one row each. Columns: "case" (10 hex digits), "run",
   /// "kind", "outcome", then the distinguishing labels, then `extra` (dotted parameter paths or metric names), or by
-  /// default the first six metrics in the runs' own order. `where`: conditions, ANDed, "path op value" with op one of =
-  /// != < <= > >= over parameters ("pile.driving.constant.speed", "bed.seed", "pile.tip"), metrics or "outcome"; values
-  /// are bound, never pasted. What a drive's bed is known by has "bed:" before its name ("bed:solid_fraction"), which
-  /// no path has; "bed:case" is the bed's case. Throws std::invalid_argument naming the nearest known name for an
-  /// unknown one.
+  /// default the first six metrics in the runs' own order. `where`: conditions "path op value" with op one of = != < <=
+  /// > >= over parameters ("pile.driving.constant.speed", "bed.seed", "pile.tip"; also by the end of the path where no
+  /// other has it), metrics, "outcome", "kind" or "study"; values are bound, never pasted. What a drive's bed is known
+  /// by has "bed:" before its name ("bed:solid_fraction"), which no path has; "bed:case" is the bed's case. Throws
+  /// std::invalid_argument naming the nearest known name for an unknown one.
+  Table query_matching(const std::string& study, const Expression& where, const std::vector<std::string>& extra) const;
+  /// All of `where`, each parsed.
   Table query(const std::string& study, const std::vector<std::string>& where,
               const std::vector<std::string>& extra) const;
+
+  /// What a name in a query of that study stands for. Throws as query() does.
+  Meaning meaning(const std::string& name, const std::string& study) const;
 
   /// The newest complete run folder of each case that query() would list, in its order, with its labels.
   std::vector<std::pair<std::filesystem::path, Labels>> runs(const std::string& study,

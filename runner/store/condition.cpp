@@ -35,6 +35,12 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// Whether it begins as a number does: "0.2 m/s". What it means, a reader who knows units finds out.
+bool may_be_quantity(const decltype(Condition::value)& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr && text->find_first_of("0123456789") <= text->find_first_not_of("+-.");
+}
+
 bool is_bare(std::string_view word) { return word.find_first_of("\"'=<>!") == word.npos; }
 
 decltype(Condition::value) parse_value(const std::string& text, std::string_view value) {
@@ -80,7 +86,8 @@ Condition parse_condition(const std::string& text) {
   if (length == 0) refuse(text, "after the path comes one of = != < <= > >=");
   condition.value = parse_value(text, trimmed(rest.substr(length)));
   const bool ordered = condition.op != Op::equal && condition.op != Op::not_equal;
-  if (ordered && !std::holds_alternative<double>(condition.value)) refuse(text, "only numbers have an order");
+  const bool is_number = std::holds_alternative<double>(condition.value) || may_be_quantity(condition.value);
+  if (ordered && !is_number) refuse(text, "only numbers have an order");
   return condition;
 }
 

@@ -6,7 +6,8 @@
 
 namespace seapile::store {
 
-/// A condition on a parameter, a metric, "outcome" or "kind". A run that lacks what is asked about meets none but
+/// A condition on a parameter, a metric, "outcome", "kind" or "study". A run that lacks what is asked about meets none
+/// but
 /// "= null".
 struct Condition {
   enum class Op { equal, not_equal, less, less_equal, greater, greater_equal };
@@ -16,8 +17,9 @@ struct Condition {
   std::variant<std::monostate, double, std::string> value;  ///< monostate: null
 };
 
-/// "pile.tip = flat", "bed.seed<=3", "outcome != 'diverged'", "fluid = null". A value is a number, null, a bare word or
-/// a quoted text; texts and null know only = and !=. Throws std::invalid_argument with one sentence.
+/// "pile.tip = flat", "bed.seed<=3", "outcome != 'diverged'", "fluid = null". A value is a number, null, bare words or
+/// a quoted text; texts and null know only = and !=, but for texts that begin as a number: "0.2 m/s". Throws
+/// std::invalid_argument with one sentence.
 Condition parse_condition(const std::string& text);
 
 /// The operator as SQL writes it.

@@ -106,9 +106,7 @@ void put_details(SQLite::Database& sqlite, std::int64_t run_id, const Manifest& 
   }
   Insertion artifact(sqlite, "artifact", 4);
   for (const FileEntry& file : manifest.files) artifact(run_id, file.path, whole(file.bytes), file.sha256);
-  ordinal = 0;
-  Insertion part(sqlite, "part", 5);
-  for (const simulation::Part& p : manifest.header.parts) part(run_id, p.name, ordinal++, whole(p.built), p.reason);
+  put_parts(sqlite, run_id, manifest.header.parts);
   Insertion numerics(sqlite, "numerics", 3);
   for (const simulation::NumericsVersion& n : manifest.header.numerics) numerics(run_id, n.module, whole(n.version));
   ordinal = 0;
@@ -140,14 +138,29 @@ std::vector<std::pair<std::string, std::string>> labels_from(const std::string& 
   return labels;
 }
 
-void ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manifest& manifest) {
+void put_parts(SQLite::Database& sqlite, std::int64_t run_id, const std::vector<simulation::Part>& parts) {
+  SQLite::Statement forget(sqlite, "DELETE FROM part WHERE run_id = ?");
+  forget.bind(1, run_id);
+  forget.exec();
+  Insertion part(sqlite, "part", 11);
+  std::int64_t ordinal = 0;
+  for (const simulation::Part& p : parts) {
+    const char* decided = p.by == scene::By::asked ? "asked" : "scene";
+    const auto asked = [&](auto member) { return p.criterion ? std::optional((*p.criterion).*member) : std::nullopt; };
+    part(run_id, p.name, ordinal++, whole(p.built), p.reason, std::string(decided), asked(&scene::Criterion::quantity),
+         asked(&scene::Criterion::number), asked(&scene::Criterion::threshold), asked(&scene::Criterion::bound),
+         asked(&scene::Criterion::answer));
+  }
+}
+
+bool ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manifest& manifest) {
   const RunHeader& header = manifest.header;
   const std::int64_t number = whole(run_number(manifest.run));
   SQLite::Statement known(sqlite, "SELECT run_id, seal FROM run WHERE case_id = ? AND number = ?");
   known.bind(1, header.case_id);
   known.bind(2, number);
   if (known.executeStep()) {
-    if (known.getColumn(1).getString() == manifest.seal) return;
+    if (known.getColumn(1).getString() == manifest.seal) return false;
     SQLite::Statement forget(sqlite, "DELETE FROM run WHERE run_id = ?");
     forget.bind(1, known.getColumn(0).getInt64());
     known.reset();
@@ -156,13 +169,16 @@ void ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manif
   put_case(sqlite, header, number);
   const simulation::RunResult& result = manifest.result;
   const Provenance& made = manifest.provenance;
-  Insertion run(sqlite, "run", 23);
+  std::uint64_t bytes = 0;
+  for (const FileEntry& file : manifest.files) bytes += file.bytes;
+  Insertion run(sqlite, "run", 25);
   run(std::optional<std::int64_t>(), header.case_id, number, folder, manifest.seal, unless_empty(header.bed_run),
       std::string(name(result.outcome)), result.reason, result.time, result.depth, hex(result.state_hash),
       whole(manifest.records + manifest.flow_records), whole(manifest.frames), made.version, made.commit,
       whole(made.dirty), made.host_cpu, whole(made.threads), made.simd, made.cpu_seconds, made.wall_seconds,
-      made.peak_memory_mb, whole(made.attempts));
+      made.peak_memory_mb, whole(made.attempts), whole(bytes), whole(0));
   put_details(sqlite, sqlite.getLastInsertRowid(), manifest);
+  return true;
 }
 
 void ingest_study(SQLite::Database& sqlite, const StudyEntry& study) {

@@ -2,8 +2,10 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "runner/store/catalogue.h"
 #include "runner/store/run_folder.h"
@@ -11,8 +13,11 @@
 namespace seapile::store {
 
 /// Puts a complete run's rows in the place of those that the run had, within the caller's transaction. Nothing changes
-/// when they are from the same manifest.
-void ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manifest& manifest);
+/// when they are from the same manifest: false.
+bool ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manifest& manifest);
+
+/// Puts what a run's manifest says of the parts in the place of the rows that the run had.
+void put_parts(SQLite::Database& sqlite, std::int64_t run_id, const std::vector<simulation::Part>& parts);
 
 /// Puts a study's rows in the place of those that it had, within the caller's transaction.
 void ingest_study(SQLite::Database& sqlite, const StudyEntry& study);

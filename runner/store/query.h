@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runner/store/catalogue.h"
+#include "runner/store/names.h"
 
 namespace seapile::store {
 
@@ -24,10 +25,10 @@ struct ListedRun {
 };
 
 /// In the order of the study; of all studies: in the order of the case ids.
-std::vector<ListedRun> list_runs(SQLite::Database& sqlite, const std::string& study,
-                                 const std::vector<std::string>& where);
+std::vector<ListedRun> list_runs(SQLite::Database& sqlite, const Names& names, const std::string& study,
+                                 const Expression& where);
 
-Table query_table(SQLite::Database& sqlite, const std::string& study, const std::vector<std::string>& where,
+Table query_table(SQLite::Database& sqlite, const std::string& study, const Expression& where,
                   const std::vector<std::string>& extra);
 
 }  // namespace seapile::store

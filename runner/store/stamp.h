@@ -6,7 +6,7 @@
 
 namespace seapile::store {
 
-/// Version of the files and of the catalogue; raised when a meaning changes, not when something is added.
+/// Version of the files; raised when a meaning changes, not when something is added. The catalogue has one of its own.
 inline constexpr std::int64_t kSchema = 1;
 
 /// Which run a file belongs to, written into its root, so that a file of another run in its place is noticed.

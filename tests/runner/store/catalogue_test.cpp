@@ -9,6 +9,7 @@
 
 #include "runner/store/durable.h"
 #include "runner/store/sha256.h"
+#include "tests/runner/store/dump.h"
 #include "tests/runner/store/sample_run.h"
 #include "tests/runner/store/scratch.h"
 
@@ -154,8 +155,8 @@ TEST_F(FilledCatalogue, ADriveIsAskedForWhatItsBedIsKnownBy) {
 TEST_F(FilledCatalogue, SaysWhatEachColumnTells) {
   const Table table = Catalogue::open_read_only(root_).query("tips", {}, {"tip_resistance_mean", "bed.seed", "kind"});
   using enum ColumnKind;
-  EXPECT_EQ(table.kinds, (std::vector<ColumnKind>{identity, identity, identity, outcome, label, label, metric,
-                                                  parameter, fact}));
+  EXPECT_EQ(table.kinds,
+            (std::vector<ColumnKind>{identity, identity, identity, outcome, label, label, metric, parameter, fact}));
 }
 
 TEST_F(FilledCatalogue, NamesTheNearestOfAnUnknownName) {
@@ -232,23 +233,116 @@ TEST_F(FilledCatalogue, TakesTheParametersFromTheNewestRunInWhateverOrder) {
 }
 
 TEST_F(FilledCatalogue, IsUnchangedByIngestingAgain) {
-  const auto dump = [&] {
-    SQLite::Database database((root_ / "catalogue.sqlite").string());
-    std::ostringstream all;
-    for (const char* table :
-         {"study", "study_case", "kase", "param", "run", "metric", "artifact", "part", "numerics", "cost"}) {
-      SQLite::Statement rows(database, std::string("SELECT * FROM ") + table);
-      while (rows.executeStep()) {
-        for (int i = 0; i < rows.getColumnCount(); ++i) all << rows.getColumn(i).getString() << '|';
-        all << '\n';
-      }
-    }
-    return all.str();
-  };
-  const std::string before = dump();
+  const auto dump = [&] { return sample::rows_of_all_tables(root_ / "catalogue.sqlite"); };
+  const auto before = dump();
   for (const Path& folder : folders_) Catalogue::open(root_).ingest(folder);
   EXPECT_EQ(dump(), before);
-  EXPECT_GT(before.size(), 1000U);
+  Catalogue catalogue = Catalogue::open(root_);
+  for (const Ingested& again : {catalogue.ingest_all({root_}), catalogue.ingest_missing()}) {
+    EXPECT_EQ(again.added, 0U);
+    EXPECT_EQ(again.known, 5U);
+    EXPECT_EQ(again.studies, 0U);
+  }
+  EXPECT_EQ(dump(), before);
+  EXPECT_GT(before.at("metric").size(), 1000U);
+}
+
+TEST_F(FilledCatalogue, IngestedFromItsFoldersIsTheSameWhateverHoldsThem) {
+  const auto before = text(Catalogue::open_read_only(root_).query("", {}, {"bed.seed"}));
+  const Path cases = root_ / "cases";
+  std::vector<Path> each = entries(cases);
+  for (const std::vector<Path>& folders :
+       {std::vector<Path>{root_}, {cases}, {cases / ""}, each, {each[0] / "0001", each[1], cases}}) {
+    std::filesystem::remove(root_ / "catalogue.sqlite");
+    Catalogue catalogue = Catalogue::open(root_);
+    EXPECT_EQ(catalogue.ingest_all(folders).added, 5U);
+    EXPECT_EQ(catalogue.ingest_missing().studies, 1U);
+    EXPECT_EQ(text(catalogue.query("", {}, {"bed.seed"})), before);
+  }
+  std::filesystem::remove(root_ / "catalogue.sqlite");
+  Catalogue catalogue = Catalogue::open(root_);
+  catalogue.ingest(folders_[3]);
+  const Ingested missing = catalogue.ingest_missing();
+  EXPECT_EQ(missing.added, 4U);
+  EXPECT_EQ(missing.known, 1U);
+  EXPECT_EQ(text(catalogue.query("", {}, {"bed.seed"})), before);
+  for (const Path& elsewhere : {scratch_.path(), root_ / "studies", root_ / ".." / "root2", cases / "a" / "b" / "c"}) {
+    EXPECT_THROW(catalogue.ingest_all({elsewhere}), std::invalid_argument) << elsewhere;
+  }
+}
+
+TEST_F(FilledCatalogue, KeepsOneNewestRunOfEachCaseWhoeverRemovesRuns) {
+  const RunHeader header = header_of("flat", 0.06, 1);
+  Catalogue::open(root_).ingest_all({write_run(root_, header, 3, "0003"), write_run(root_, header, 2, "0002")});
+  const auto newest = [&] {
+    const Table table = Catalogue::open_read_only(root_).query("tips", {}, {"tip_resistance_mean"});
+    EXPECT_EQ(table.rows.size(), 4U);
+    return table.rows[0].back();
+  };
+  EXPECT_EQ(newest(), Cell{3.0});
+  const auto remove = [&](int number) {
+    SQLite::Database sqlite((root_ / "catalogue.sqlite").string(), SQLite::OPEN_READWRITE);
+    sqlite.exec("PRAGMA foreign_keys=ON");
+    SQLite::Statement gone(sqlite, "DELETE FROM run WHERE case_id = ? AND number = ?");
+    gone.bind(1, header.case_id);
+    gone.bind(2, number);
+    EXPECT_EQ(gone.exec(), 1);
+  };
+  remove(3);
+  EXPECT_EQ(newest(), Cell{2.0});
+  remove(1);
+  EXPECT_EQ(newest(), Cell{2.0});
+}
+
+TEST_F(FilledCatalogue, FindsByExpressions) {
+  const Catalogue catalogue = Catalogue::open_read_only(root_);
+  const auto found = [&](const std::string& study, const char* expression) {
+    return catalogue.query_matching(study, parse_expression(expression), {"bed.seed"}).rows.size();
+  };
+  EXPECT_EQ(found("", "pile.tip = flat and pile.driving.constant.speed > 0.1"), 2U);
+  EXPECT_EQ(found("", "pile.tip = conical or bed.seed = 2"), 3U);
+  EXPECT_EQ(found("", "not pile.tip = conical"), 3U);
+  EXPECT_EQ(found("", "not (pile.tip = conical or bed.seed = 2)"), 2U);
+  EXPECT_EQ(found("", "pile.tip = conical and tip_resistance_mean > 3500 or bed.seed = 2"), 2U);
+  EXPECT_EQ(found("", "pile.tip = conical and (tip_resistance_mean > 3500 or bed.seed = 2)"), 1U);
+  EXPECT_EQ(found("", "study = tips"), 4U);
+  EXPECT_EQ(found("", "study != tips"), 1U);
+  EXPECT_EQ(found("tips", "not study = tips"), 0U);
+  // "not" turns round whether a run meets what is asked, also where it lacks it.
+  EXPECT_EQ(found("", "tip_resistance_bin_0.25 > 0"), 0U);
+  EXPECT_EQ(found("", "not tip_resistance_bin_0.25 > 0"), 5U);
+  EXPECT_EQ(found("", "not bed:case = 0123456789"), 5U);
+  EXPECT_THROW(found("", "study = tip"), std::invalid_argument);
+  EXPECT_THROW(found("", "pile.tip > 3 m"), std::invalid_argument);
+}
+
+TEST_F(FilledCatalogue, TakesTheEndOfAPathWhereItIsNoOthers) {
+  EXPECT_EQ(count("", {"tip = flat", "speed > 0.1"}), 2U);
+  EXPECT_EQ(count("", {"constant.speed = 0.06"}), 2U);
+  const Catalogue catalogue = Catalogue::open_read_only(root_);
+  EXPECT_EQ(catalogue.meaning("speed", "").name, "pile.driving.constant.speed");
+  EXPECT_EQ(catalogue.meaning("speed", "").unit, "m/s");
+  EXPECT_EQ(catalogue.meaning("tip", "").unit, "");
+  EXPECT_EQ(catalogue.meaning("tip_resistance_mean", "").unit, "Pa");
+  EXPECT_THROW(catalogue.meaning("peed", ""), std::invalid_argument);
+}
+
+TEST_F(FilledCatalogue, NamesThoseBetweenWhichItCannotTellUnlessTheStudyCan) {
+  RunHeader header = header_of("flat", 0.3, 1);
+  header.scene_json.replace(header.scene_json.find("constant"), 8, "vibratory");
+  header.canonical = header.scene_json;
+  header.case_id = sha256(header.canonical);
+  Catalogue catalogue = Catalogue::open(root_);
+  catalogue.ingest(write_run(root_, header, 1));
+  EXPECT_EQ(catalogue.query("tips", {"speed = 0.06"}, {}).rows.size(), 2U);
+  try {
+    catalogue.query("", {"speed = 0.06"}, {});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "\"speed\" may be any of pile.driving.constant.speed, pile.driving.vibratory.speed: write more of the path");
+  }
 }
 
 TEST_F(FilledCatalogue, RebuiltFromTheFoldersAnswersTheSame) {
@@ -302,7 +396,7 @@ TEST_F(FilledCatalogue, IsReadWhileItIsWritten) {
 }
 
 TEST_F(FilledCatalogue, OfANewerProgramIsRefused) {
-  SQLite::Database((root_ / "catalogue.sqlite").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 2");
+  SQLite::Database((root_ / "catalogue.sqlite").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 3");
   for (const auto open : {&Catalogue::open, &Catalogue::open_read_only}) {
     try {
       open(root_);

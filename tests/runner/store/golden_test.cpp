@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runner/store/catalogue.h"
+#include "runner/store/migration.h"
 #include "runner/store/sha256.h"
 #include "tests/runner/store/sample_run.h"
 #include "tests/runner/store/scratch.h"
@@ -81,19 +82,23 @@ TEST(GoldenV1, HasEveryValueThatWasWritten) {
   EXPECT_EQ(sample::difference(read_bed(run(kBed)), sample::bed()), "");
 }
 
-TEST(GoldenV1, HasACatalogueThatAnswers) {
-  const Catalogue catalogue = Catalogue::open_read_only(kGolden);
+TEST(GoldenV1, HasACatalogueThatAnswersOnceItIsMigrated) {
+  const Scratch scratch;
+  std::filesystem::copy(kGolden, scratch.path(), std::filesystem::copy_options::recursive);
+  EXPECT_EQ(migrate(scratch.path()).from, 1);
+  const Catalogue catalogue = Catalogue::open_read_only(scratch.path());
   EXPECT_EQ(catalogue.studies(), std::vector<std::string>{"golden"});
   const Table table = catalogue.query("golden", {"outcome = completed"}, {"tip_resistance_mean", "bed.seed"});
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0],
             (std::vector<Cell>{kDrive.substr(0, 10), "0001", "drive", "completed", "flat", 81234.5, 7.0}));
-  EXPECT_EQ(catalogue.find(kBed.substr(0, 10)), run(kBed));
+  EXPECT_EQ(catalogue.find(kBed.substr(0, 10)), case_folder(scratch.path(), kBed) / "0001");
 }
 
 TEST(GoldenV1, FillsACatalogue) {
   const Scratch scratch;
   std::filesystem::copy(kGolden, scratch.path(), std::filesystem::copy_options::recursive);
+  std::filesystem::remove(scratch.path() / "catalogue.sqlite");
   Catalogue catalogue = Catalogue::open(scratch.path());
   EXPECT_EQ(catalogue.rebuild(), 2U);
   EXPECT_EQ(catalogue.studies(), std::vector<std::string>{"golden"});

@@ -1,0 +1,108 @@
+#include "runner/store/clause.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace seapile::store {
+
+namespace {
+
+using Op = Condition::Op;
+
+bool has_text(SQLite::Database& sqlite, const std::string& path) {
+  SQLite::Statement statement(sqlite, "SELECT 1 FROM param WHERE path = ? AND txt IS NOT NULL LIMIT 1");
+  statement.bind(1, path);
+  return statement.executeStep();
+}
+
+/// On what every run has: a text, = or !=.
+Clause of_run(SQLite::Database& sqlite, const Name& name, const Condition& condition) {
+  const auto* text = std::get_if<std::string>(&condition.value);
+  if (text == nullptr) throw std::invalid_argument(name.text + " is a text");
+  const bool equal = condition.op == Op::equal;
+  const std::string in = equal ? "r.case_id IN (" : "r.case_id NOT IN (";
+  switch (name.subject) {
+    case Subject::kind:
+      return {fmt::format("k.kind {} ?", sql(condition.op)), {*text}};
+    case Subject::study: {
+      const auto known = study_names(sqlite);
+      if (std::ranges::find(known, *text) == known.end()) refuse_unknown("study", *text, known);
+      return {in + "SELECT sc.case_id FROM study s JOIN study_case sc ON sc.study_id = s.study_id WHERE s.name = ?)",
+              {*text}};
+    }
+    case Subject::bed_case:
+      // Behind the last hex digit comes "g".
+      if (text->empty()) throw std::invalid_argument(name.text + " is a case id, or how one begins");
+      return {(equal ? "" : "k.bed_id IS NOT NULL AND ") + in +
+                  "SELECT case_id FROM kase WHERE bed_id >= ? AND bed_id < ? || 'g')",
+              {*text, *text}};
+    default:
+      return {fmt::format("r.outcome {} ?", sql(condition.op)), {*text}};
+  }
+}
+
+Clause of_metric(const Name& name, const Condition& condition) {
+  const std::string rows =
+      name.subject == Subject::metric
+          ? "r.run_id IN (SELECT run_id FROM metric WHERE name = ? AND value "
+          : fmt::format("r.run_id IN (SELECT d.run_id {}WHERE m.name = ? AND m.value ", kMetricsOfBed);
+  if (const auto* number = std::get_if<double>(&condition.value)) {
+    return {rows + sql(condition.op) + " ?)", {name.metric(), *number}};
+  }
+  if (const auto* text = std::get_if<std::string>(&condition.value)) {
+    throw std::invalid_argument(name.text + " is a number, in SI units; \"" + *text + "\" is none");
+  }
+  return {(condition.op == Op::equal ? "NOT " : "") + rows + "IS NOT NULL)", {name.metric()}};
+}
+
+Clause of_parameter(SQLite::Database& sqlite, const Name& name, const Condition& condition) {
+  const std::string rows = "r.case_id IN (SELECT case_id FROM param WHERE path = ? AND ";
+  if (const auto* number = std::get_if<double>(&condition.value)) {
+    return {rows + "num " + sql(condition.op) + " ?)", {name.text, *number}};
+  }
+  if (const auto* text = std::get_if<std::string>(&condition.value)) {
+    const bool ordered = condition.op != Op::equal && condition.op != Op::not_equal;
+    if (ordered || !has_text(sqlite, name.text)) {
+      throw std::invalid_argument(name.text + " is a " +
+                                  (has_text(sqlite, name.text) ? "text" : "number, in SI units") + "; \"" + *text +
+                                  (ordered ? "\" has no order" : "\" is none"));
+    }
+    return {rows + "txt " + sql(condition.op) + " ?)", {name.text, *text}};
+  }
+  // Asked of each run by itself: a part has many members, and all runs may have it.
+  return {
+      std::string(condition.op == Op::equal ? "NOT " : "") +
+          "(EXISTS (SELECT 1 FROM param WHERE case_id = r.case_id AND path = ? AND (num IS NOT NULL OR txt IS NOT "
+          "NULL)) OR EXISTS (SELECT 1 FROM param WHERE case_id = r.case_id AND path > ? || '.' AND path < ? || '/'))",
+      {name.text, name.text, name.text}};
+}
+
+Clause of_condition(SQLite::Database& sqlite, const Names& names, const std::string& study,
+                    const Condition& condition) {
+  const Name name = names.find(condition.path, study);
+  if (name.is_metric()) return of_metric(name, condition);
+  if (name.subject == Subject::parameter) return of_parameter(sqlite, name, condition);
+  return of_run(sqlite, name, condition);
+}
+
+}  // namespace
+
+Clause clause_of(SQLite::Database& sqlite, const Names& names, const std::string& study, const Expression& expression) {
+  if (expression.kind == Expression::Kind::condition) {
+    return of_condition(sqlite, names, study, expression.condition);
+  }
+  Clause clause;
+  const char* between = expression.kind == Expression::Kind::any ? " OR " : " AND ";
+  for (const Expression& part : expression.parts) {
+    const Clause inner = clause_of(sqlite, names, study, part);
+    clause.text += (clause.text.empty() ? "(" : between + std::string("(")) + inner.text + ")";
+    clause.values.insert(clause.values.end(), inner.values.begin(), inner.values.end());
+  }
+  if (clause.text.empty()) return {"TRUE", {}};
+  if (expression.kind == Expression::Kind::negation) clause.text = "NOT (" + clause.text + ")";
+  return clause;
+}
+
+}  // namespace seapile::store
