@@ -1,6 +1,8 @@
 // However many runs there are, a question is answered through indexes: no statement that a query issues reads a table
 // from end to end. Plans are what SQLite makes without statistics, so they do not depend on how many rows there are.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 #include <sqlite3.h>
 
 #include <regex>
