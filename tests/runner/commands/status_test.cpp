@@ -86,11 +86,11 @@ TEST(Status, AFailureIsToldWithTheLastLinesOfItsLogUntilItIsMadeGood) {
   fs::create_directories(run / "series.h5" / "in_the_way");
   const Finished failed = place.run({"small.json"});
   EXPECT_EQ(failed.exit_code, 1) << failed.error;
-  EXPECT_THAT(failed.error, HasSubstr("| ended with code 41")) << "the log's last lines stand below the failure";
+  EXPECT_THAT(failed.error, HasSubstr("| cannot give its name to")) << "the log's last lines stand below the failure";
   EXPECT_EQ(states(place, "small.json"), (Counts{{"completed", 2}, {"failed", 1}}));
   const Finished status = place.run({"status", "small"});
   EXPECT_THAT(status.out, HasSubstr("reading or writing failed"));
-  EXPECT_THAT(status.out, HasSubstr("| ended with code 41"));
+  EXPECT_THAT(status.out, HasSubstr("| cannot give its name to"));
   EXPECT_EQ(place.run({"status", "small", "--watch"}).exit_code, 1);
 
   fs::remove_all(run / "series.h5");
