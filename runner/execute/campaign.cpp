@@ -148,8 +148,6 @@ void Campaign::show_log(const std::string& case_id) const {
   if (run.empty()) return;
   for (const std::string& line : last_log_lines(run, kShownLogLines)) fmt::print(stderr, "           | {}\n", line);
 }
-\n ", line);
-}
 
 void Campaign::ingest(const std::string& case_id) {
   try {
