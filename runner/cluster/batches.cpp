@@ -5,11 +5,8 @@
 #include <map>
 
 namespace seapile::cluster {
-namespace {
 
 using execute::Kind;
-
-}  // namespace
 
 std::size_t cases_per_task(double pace, double batch_seconds, double limit_seconds) {
   if (!(pace > 0)) return 1;

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 
-#include "runner/cluster/history_pace.h"
 #include "runner/cluster/job_states.h"
 #include "runner/cluster/scheduler.h"
 #include "runner/cluster/shell.h"
 #include "runner/cluster/slurm.h"
 #include "runner/execute/campaign.h"
+#include "runner/execute/price.h"
 #include "runner/execute/processes.h"
 #include "runner/execute/request.h"
 #include "runner/store/durable.h"
@@ -54,7 +54,7 @@ std::vector<std::string> array_words(const study::Study& study, const Layout& la
   for (const std::size_t before : array.after) after.insert(job_of[before]);
   if (const auto jobs = layout.after_jobs.find(number); jobs != layout.after_jobs.end())
     after.insert(jobs->second.begin(), jobs->second.end());
-  std::vector<std::string> words = {"--parsable", fmt::format("--job-name={}-{}", study.name, kind_name(array.kind)),
+  std::vector<std::string> words = {"--parsable", fmt::format("--job-name={}-{}", study.name, name(array.kind)),
                                     fmt::format("--array=0-{}{}", array.tasks.size() - 1,
                                                 options.throttle > 0 ? fmt::format("%{}", options.throttle) : ""),
                                     fmt::format("--output={}/logs/%A_%a.txt", literal(folder)), "--hold"};
@@ -111,15 +111,15 @@ void write_files(const study::Study& study, const execute::Plan& plan, const Lay
   std::string lines;
   for (std::size_t number = 0; number < layout.arrays.size(); ++number) {
     const Array& array = layout.arrays[number];
-    submission.arrays.push_back({"", kind_name(array.kind), array.first, array.tasks.size(), {}});
+    submission.arrays.push_back({"", name(array.kind), array.first, array.tasks.size(), {}});
     for (std::size_t index = 0; index < array.tasks.size(); ++index) {
       std::vector<std::string> ids;
       for (const std::size_t i : array.tasks[index]) {
         const execute::Task& task = plan.tasks[i];
         const execute::Request request = request_of(study, task, root, options);
         store::write_text(submission.folder / "requests" / (task.id + ".json"), execute::to_json(request) + "\n");
-        submission.cases.push_back({task.id, task.name, kind_name(task.kind), number, index,
-                                    store::newest_run(root, task.id).filename().string()});
+        submission.cases.push_back(
+            {task.id, task.name, name(task.kind), number, index, store::newest_run(root, task.id).filename().string()});
         ids.push_back(task.id);
       }
       lines += fmt::format("{}\n", fmt::join(ids, " "));
@@ -176,12 +176,12 @@ Layout lay_out(const study::Study& study, const execute::Plan& plan, const std::
     wanted.push_back(task.decision.action != execute::Action::fresh && !in_queue.contains(task.id));
   Layout layout;
   const auto limit = static_cast<double>(limit_seconds(options.resources.time));
+  const execute::Prices prices = execute::prices_of(study, plan, options.root);
   const auto per_task = [&](execute::Kind kind) {
-    const auto pace = median_cpu_seconds(options.root, study.name, kind);
+    const auto pace = execute::typical_cpu_seconds(plan, prices, kind);
     const std::size_t count = cases_per_task(pace.value_or(0), options.batch_seconds, limit);
-    layout.remarks.push_back(
-        pace ? fmt::format("{}s take {:.3g} s (median): {} in a task", kind_name(kind), *pace, count)
-             : fmt::format("no history of {}s: one in a task", kind_name(kind)));
+    layout.remarks.push_back(pace ? fmt::format("{}s take {:.3g} s (median): {} in a task", name(kind), *pace, count)
+                                  : fmt::format("no history of {}s: one in a task", name(kind)));
     return count;
   };
   layout.arrays = make_arrays(plan, wanted, most_array_tasks(), per_task);

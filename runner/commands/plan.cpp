@@ -20,21 +20,13 @@ using execute::Prices;
 
 struct PlanArguments {
   std::string study;
+  std::string root = "results";
   study::Options options;
-  execute::CampaignOptions campaign;
   present::Format format = present::Format::table;
   bool each = false;
 };
 
 using store::Cell;
-
-const char* verb(Action action) {
-  return action == Action::fresh ? "fresh" : action == Action::resume ? "resume" : "run";
-}
-
-const char* kind_name(execute::Kind kind) {
-  return kind == execute::Kind::bed ? "bed" : kind == execute::Kind::drive ? "drive" : "flow";
-}
 
 /// What a price was made from, in words.
 std::string source(const std::optional<execute::Price>& price) {
@@ -49,8 +41,8 @@ store::Table table_of_cases(const execute::Plan& plan, const Prices& prices) {
   table.units = {"", "", "", "", "", "s", "MB", "B", ""};
   for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
     const execute::Task& task = plan.tasks[i];
-    std::vector<Cell> row = {execute::short_id(task.id), kind_name(task.kind), task.name, verb(task.decision.action),
-                             task.decision.reason};
+    std::vector<Cell> row = {execute::short_id(task.id), execute::name(task.kind), task.name,
+                             execute::name(task.decision.action), task.decision.reason};
     const bool priced = task.decision.action != Action::fresh && prices[i];
     if (priced) {
       row.insert(row.end(), {prices[i]->cpu_seconds, prices[i]->memory_mb, prices[i]->bytes});
@@ -86,7 +78,7 @@ store::Table table_of_groups(const execute::Plan& plan, const Prices& prices) {
   table.units = {"", "", "", "", "", "s", "MB", "MB"};
   for (const auto& [key, group] : groups) {
     const auto& [action, kind, reason] = key;
-    std::vector<Cell> row = {verb(action), group.cases, kind_name(kind), reason};
+    std::vector<Cell> row = {execute::name(action), group.cases, execute::name(kind), reason};
     if (action == Action::fresh) {
       row.insert(row.end(), 4, Cell{});
     } else if (group.unpriced == group.cases) {
@@ -117,10 +109,11 @@ std::string estimate_text(const execute::Estimate& estimate, int cores) {
 
 int plan(const PlanArguments& arguments) {
   const study::Study study = study::read(arguments.study, arguments.options);
-  const execute::Campaign campaign(study, arguments.campaign);
-  if (const auto objection = execute::objection(campaign.sharing()); !objection.empty()) throw UsageError(objection);
+  execute::CampaignOptions options;
+  options.root = arguments.root;
+  const execute::Campaign campaign(study, options);
   const execute::Plan& plan = campaign.plan();
-  const Prices prices = execute::prices_of(study, plan, arguments.campaign.root);
+  const Prices prices = execute::prices_of(study, plan, arguments.root);
   const bool for_people = arguments.format == present::Format::table;
   const bool by_case = arguments.each || !for_people;
   fmt::print("{}",
@@ -137,17 +130,16 @@ void add_plan(CLI::App& app, Call& call) {
   CLI::App* command = app.add_subcommand("plan", "What a study lacks, why, and what it will cost; runs nothing");
   command->add_option("STUDY", arguments.study, "Study file")->required();
   add_study_options(*command, arguments.options);
-  add_sharing_options(*command, arguments.campaign.sharing);
   add_format_option(*command, arguments.format);
   command->add_flag("--each", arguments.each, "One row per case; csv and json always have one");
-  add_store_option(*command, arguments.campaign.root);
+  add_store_option(*command, arguments.root);
   command->footer(
       "A case is fresh when its newest run can stand for it, and otherwise run, for the reason that is said. Prices "
       "are\n"
       "those of runs in the catalogue that were computed alike; what has no such run has no price.\n\n"
       "Examples:\n"
       "  runner plan studies/chapter_6.json\n"
-      "  runner plan studies/velocity.json --seeds 8 --jobs 2\n"
+      "  runner plan studies/velocity.json --seeds 8\n"
       "  runner plan studies/tip_shape.json --each --format csv");
   command->callback([&call] { call = [] { return plan(arguments); }; });
 }

@@ -26,6 +26,7 @@ namespace seapile::commands {
 namespace {
 
 namespace fs = std::filesystem;
+using execute::Standing;
 using present::ReportSection;
 using present::ReportTable;
 using present::Tone;
@@ -149,33 +150,36 @@ void add_checks(present::Report& report, ReportSection& section, const Verdicts&
   if (!remarks.empty()) section.blocks.emplace_back(present::ReportText{std::move(remarks)});
 }
 
-/// Cases by their state, and those that are not done with the reason.
+/// Cases by their state, and those that are not completed with the reason.
 void add_states(present::Report& report, ReportSection& section, const std::vector<CaseState>& states) {
   std::vector<present::Labels> labels;
   std::vector<const CaseState*> rest;
-  for (const State state : {State::done, State::failed, State::missing, State::unfinished, State::stale}) {
-    const auto number = std::ranges::count(states, state, &CaseState::state);
-    const bool always = state == State::done || state == State::failed || state == State::missing;
+  for (const Standing standing : execute::kStandings) {
+    const auto number =
+        std::ranges::count_if(states, [&](const CaseState& one) { return one.at.standing == standing; });
+    const bool always =
+        standing == Standing::completed || standing == Standing::failed || standing == Standing::missing;
     if (number == 0 && !always) continue;
-    report.counts.push_back({fmt::format("{} case{} {}", number, number == 1 ? "" : "s", words(state)),
-                             number == 0 ? Tone::plain : tone(state)});
+    report.counts.push_back({fmt::format("{} case{} {}", number, number == 1 ? "" : "s", execute::name(standing)),
+                             number == 0 ? Tone::plain : tone(standing)});
   }
   for (const CaseState& one : states) {
-    if (one.state == State::done) continue;
+    if (one.at.standing == Standing::completed) continue;
     rest.push_back(&one);
     labels.push_back(one.labels);
   }
   if (rest.empty()) return;
-  ReportTable table{"Cases that are not done", present::label_table(labels), {}, "state"};
+  ReportTable table{"Cases that are not completed", present::label_table(labels), {}, "state"};
   table.table.columns.insert(table.table.columns.begin(), "case");
   for (const char* name : {"state", "why"}) table.table.columns.emplace_back(name);
   table.table.units.insert(table.table.units.begin(), "");
   table.table.units.resize(table.table.columns.size());
   for (std::size_t i = 0; i < rest.size(); ++i) {
     auto& row = table.table.rows[i];
-    row.insert(row.begin(), execute::short_id(rest[i]->case_id));
-    row.insert(row.end(), {words(rest[i]->state), rest[i]->why});
-    table.tones.push_back(tone(rest[i]->state));
+    const execute::CaseStanding& at = rest[i]->at;
+    row.insert(row.begin(), execute::short_id(at.case_id));
+    row.insert(row.end(), {execute::name(at.standing), at.reason});
+    table.tones.push_back(tone(at.standing));
   }
   table.notes = {
       "A stale case has a result that was made with other numerics, another record or another bed than the "
@@ -187,10 +191,11 @@ std::vector<present::CaseResult> results_of(const study::Study& study, const std
   std::vector<present::CaseResult> results;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const CaseState& one = states[i];
-    const std::string word = one.state == State::stale && one.completed ? "completed" : words(one.state);
-    results.push_back({one.case_id, one.labels, one.state == State::done ? "completed" : word,
-                       one.completed ? one.run_folder : fs::path(), one.completed ? one.bed_folder : fs::path(),
-                       present::kind_of(study.cases[i].scene)});
+    const bool completed = one.at.completed;
+    const std::string word =
+        execute::name(one.at.standing == Standing::stale && completed ? Standing::completed : one.at.standing);
+    results.push_back({one.at.case_id, one.labels, word, completed ? one.at.sealed_folder : fs::path(),
+                       completed ? one.bed_folder : fs::path(), present::kind_of(study.cases[i].scene)});
   }
   return results;
 }
@@ -229,7 +234,8 @@ ReportSection pictures_section(const std::string& study, const fs::path& root) {
 std::vector<present::ReportRun> runs_of(const std::vector<CaseState>& states) {
   std::vector<present::ReportRun> runs;
   for (const CaseState& one : states) {
-    if (!one.run_folder.empty()) runs.push_back({one.labels, words(one.state), store::read_manifest(one.run_folder)});
+    if (one.at.sealed_folder.empty()) continue;
+    runs.push_back({one.labels, execute::name(one.at.standing), store::read_manifest(one.at.sealed_folder)});
   }
   return runs;
 }
@@ -284,8 +290,8 @@ ReportSection provenance_section(const study::Study& study, const ReportRequest&
 
 std::optional<present::Report> reported(const ReportRequest& request) {
   const study::Study study = read_whole(request);
-  const std::vector<CaseState> states = case_states(study, request.root), beds = bed_states(study, request.root);
-  const auto is_missing = [](const CaseState& one) { return one.state == State::missing; };
+  const auto [states, beds] = study_states(study, request.root);
+  const auto is_missing = [](const CaseState& one) { return one.at.standing == Standing::missing; };
   if (std::ranges::all_of(states, is_missing) && std::ranges::all_of(beds, is_missing)) return {};
 
   present::Report report{study.name, study.question, "", {}, {}};

@@ -91,7 +91,7 @@ std::string text_for_people(const std::vector<CaseStanding>& cases) {
       text += fmt::format(" ({} thread{} on {})", about.progress->threads, about.progress->threads == 1 ? "" : "s",
                           about.progress->host);
     }
-    if (!about.reason.empty()) text += ": " + about.reason;
+    if (!about.reason.empty() && about.standing != Standing::running) text += ": " + about.reason;
     text += "\n";
     if (about.standing != Standing::failed && about.standing != Standing::diverged) continue;
     for (const std::string& line : execute::last_log_lines(about.run_folder, kShownLogLines)) {
@@ -172,7 +172,8 @@ void add_status(CLI::App& app, Call& call) {
   command->add_flag("--watch", arguments.watch, "Look again while a case is running; then end as the study did");
   command->add_option("--every", arguments.every, "Time between two looks [s]")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(CLI::Range(0.1, 3600.0))
+      ->needs("--watch");
   command->add_flag("--each", arguments.each, "One row per case; csv and json always have one");
   add_format_option(*command, arguments.format);
   add_store_option(*command, arguments.root);

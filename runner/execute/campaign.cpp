@@ -139,8 +139,12 @@ void Campaign::note_failure(std::size_t task, const std::string& why) const {
 
 /// The last lines that the run itself wrote, below the line that says how it ended.
 void Campaign::show_log(const std::string& case_id) const {
-  fs::path run = unfinished_run(options_.root, case_id);
-  if (run.empty()) run = store::newest_run(options_.root, case_id);
+  fs::path run;
+  try {
+    run = unfinished_run(options_.root, case_id);
+    if (run.empty()) run = store::newest_run(options_.root, case_id);
+  } catch (const store::StoreError&) {  // The case's folder cannot be looked into: that it failed is said already.
+  }
   if (run.empty()) return;
   for (const std::string& line : last_log_lines(run, kShownLogLines)) fmt::print(stderr, "           | {}\n", line);
 }

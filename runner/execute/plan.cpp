@@ -73,6 +73,16 @@ int most_threads(const scene::SceneSpec& scene) {
 
 }  // namespace
 
+const char* name(Action action) {
+  static constexpr const char* kNames[] = {"fresh", "resume", "run"};
+  return kNames[static_cast<int>(action)];
+}
+
+const char* name(Kind kind) {
+  static constexpr const char* kNames[] = {"bed", "drive", "flow"};
+  return kNames[static_cast<int>(kind)];
+}
+
 std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want) {
   const auto differs = [](const char* what, double recorded, double asked, const char* unit) {
     return fmt::format("{} of {} {} recorded, {} {} asked for", what, recorded, unit, asked, unit);
@@ -199,20 +209,17 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
 
 std::vector<std::string> describe(const Plan& plan) {
   constexpr std::size_t kMostLines = 16;
-  const auto verb = [](Action action) {
-    return action == Action::fresh ? "fresh" : action == Action::resume ? "resume" : "run";
-  };
   std::vector<std::string> lines;
   if (plan.tasks.size() <= kMostLines) {
     for (const Task& task : plan.tasks) {
-      lines.push_back(fmt::format("{:<6}  {}: {}", verb(task.decision.action), task.name, task.decision.reason));
+      lines.push_back(fmt::format("{:<6}  {}: {}", name(task.decision.action), task.name, task.decision.reason));
     }
     return lines;
   }
   std::map<std::pair<Action, std::string>, std::size_t> counts;
   for (const Task& task : plan.tasks) ++counts[{task.decision.action, task.decision.reason}];
   for (const auto& [key, count] : counts) {
-    lines.push_back(fmt::format("{:<6}  {} cases: {}", verb(key.first), count, key.second));
+    lines.push_back(fmt::format("{:<6}  {} cases: {}", name(key.first), count, key.second));
   }
   return lines;
 }

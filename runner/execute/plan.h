@@ -54,6 +54,7 @@ struct Asked {
 std::optional<scene::RecordSpec> record_of_runs(const scene::RecordSpec& record, const scene::SceneSpec& scene);
 
 enum class Action { fresh, resume, run };
+const char* name(Action action);  ///< "fresh", "resume" or "run"
 
 struct Decision {
   Action action = Action::run;
@@ -68,6 +69,7 @@ Decision decide(const Asked& asked, const History& history);
 std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want);
 
 enum class Kind { bed, drive, flow };
+const char* name(Kind kind);  ///< "bed", "drive" or "flow", as requests and manifests have it
 
 /// One case to be considered: a bed, a drive that is built on one, or a flow of water alone.
 struct Task {

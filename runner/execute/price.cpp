@@ -127,16 +127,25 @@ std::optional<Price> PriceList::price(const std::string& kind, const scene::Scen
 
 Prices prices_of(const study::Study& study, const Plan& plan, const std::filesystem::path& root) {
   Prices prices(plan.tasks.size());
+  const auto is_fresh = [](const Task& task) { return task.decision.action == Action::fresh; };
+  if (std::ranges::all_of(plan.tasks, is_fresh)) return prices;
   const PriceList list(history_of(root));
   for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
     const Task& task = plan.tasks[i];
-    if (task.decision.action == Action::fresh) continue;
+    if (is_fresh(task)) continue;
     const scene::SceneSpec& scene = study.cases[task.study_case].scene;
-    prices[i] = task.kind == Kind::bed     ? list.price("bed", bed_alone(scene))
-                : task.kind == Kind::drive ? list.price("drive", scene)
-                                           : list.price("flow", scene);
+    prices[i] = list.price(name(task.kind), task.kind == Kind::bed ? bed_alone(scene) : scene);
   }
   return prices;
+}
+
+std::optional<double> typical_cpu_seconds(const Plan& plan, const Prices& prices, Kind kind) {
+  std::vector<double> cpu;
+  for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
+    if (plan.tasks[i].kind == kind && prices[i]) cpu.push_back(prices[i]->cpu_seconds);
+  }
+  if (cpu.empty()) return {};
+  return median(std::move(cpu));
 }
 
 Estimate estimate(const Plan& plan, const Prices& prices, int cores) {

@@ -53,6 +53,9 @@ using Prices = std::vector<std::optional<Price>>;
 /// price is a comfort, and what is wrong with a catalogue is told where it is needed.
 Prices prices_of(const study::Study& study, const Plan& plan, const std::filesystem::path& root);
 
+/// The median price [CPU s] of the cases of a kind that are to be run; absent when none has a price.
+std::optional<double> typical_cpu_seconds(const Plan& plan, const Prices& prices, Kind kind);
+
 /// What is left to be done of a plan.
 struct Estimate {
   std::size_t to_run = 0;    ///< cases that are not fresh

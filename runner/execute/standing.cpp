@@ -1,31 +1,41 @@
 #include "runner/execute/standing.h"
 
-#include <algorithm>
-
 #include "runner/execute/history.h"
 #include "runner/execute/progress.h"
-#include "runner/store/store_error.h"
 
 namespace seapile::execute {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What is to be seen of a case that was begun and has not come to an end; false when there is no such run.
-bool look_at_unfinished(const fs::path& root, CaseStanding& about) {
-  const fs::path run = unfinished_run(root, about.case_id);
-  if (run.empty()) return false;
-  about.run_folder = run;
-  about.progress = read_progress(run);
-  if (is_seen_claimed(root, about.case_id)) {
+/// What the case's folder tells; whether a completed run is up to date is the plan's to say.
+CaseStanding look_at(const fs::path& root, const std::string& case_id, const std::string& name) {
+  CaseStanding about;
+  about.case_id = case_id;
+  about.name = name;
+  const History history = read_history(root, case_id);
+  if (history.past) {
+    const fs::path run = store::case_folder(root, case_id) / history.past->run;
+    const bool damaged = !history.past->damage.empty();
+    about.completed = !damaged && history.past->outcome == simulation::Outcome::completed;
+    about.standing = about.completed ? Standing::completed : damaged ? Standing::stale : Standing::diverged;
+    about.reason = damaged ? history.past->damage : history.past->reason;
+    about.run_folder = run;
+    if (!damaged) about.sealed_folder = run;
+  }
+  if (!history.interrupted) return about;
+  about.run_folder = store::case_folder(root, case_id) / history.interrupted->run;
+  about.progress = read_progress(about.run_folder);
+  about.reason.clear();
+  if (is_seen_claimed(root, case_id)) {
     about.standing = Standing::running;
-  } else if (const auto failure = read_failure(run)) {
+  } else if (const auto failure = read_failure(about.run_folder)) {
     about.standing = Standing::failed;
     about.reason = failure->sentence;
   } else {
     about.standing = Standing::interrupted;
   }
-  return true;
+  return about;
 }
 
 }  // namespace
@@ -39,17 +49,10 @@ const char* name(Standing standing) {
 std::vector<CaseStanding> standings(const Plan& plan, const fs::path& root) {
   std::vector<CaseStanding> all;
   for (const Task& task : plan.tasks) {
-    CaseStanding about{task.id, task.name, Standing::missing, "", {}, {}};
-    if (task.decision.action == Action::fresh) {
-      about.standing = Standing::completed;
-      about.run_folder = store::case_folder(root, task.id) / task.decision.run;
-    } else if (!look_at_unfinished(root, about)) {
-      about.run_folder = store::newest_run(root, task.id);
-      if (!about.run_folder.empty()) {
-        about.reason = task.decision.reason;
-        about.standing = about.reason.starts_with("last run diverged") ? Standing::diverged : Standing::stale;
-      }
-    }
+    CaseStanding about = look_at(root, task.id, task.name);
+    if (about.standing == Standing::completed && task.decision.action != Action::fresh)
+      about.standing = Standing::stale;
+    if (about.standing != Standing::failed && about.standing != Standing::diverged) about.reason = task.decision.reason;
     all.push_back(std::move(about));
   }
   return all;
@@ -59,22 +62,7 @@ std::vector<CaseStanding> standings(const store::StudyEntry& study, const fs::pa
   std::vector<CaseStanding> all;
   for (const auto& [case_id, labels] : study.cases) {
     const std::string words = label_line(labels);
-    CaseStanding about{case_id, words.empty() ? "case " + short_id(case_id) : words, Standing::missing, "", {}, {}};
-    if (!look_at_unfinished(root, about)) {
-      about.run_folder = store::newest_run(root, case_id);
-      try {
-        if (!about.run_folder.empty()) {
-          const store::Manifest manifest = store::read_manifest(about.run_folder);
-          const bool completed = manifest.result.outcome == simulation::Outcome::completed;
-          about.standing = completed ? Standing::completed : Standing::diverged;
-          about.reason = manifest.result.reason;
-        }
-      } catch (const store::StoreError& error) {
-        about.standing = Standing::stale;
-        about.reason = error.what();
-      }
-    }
-    all.push_back(std::move(about));
+    all.push_back(look_at(root, case_id, words.empty() ? "case " + short_id(case_id) : words));
   }
   return all;
 }

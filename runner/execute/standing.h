@@ -32,9 +32,11 @@ struct CaseStanding {
   std::string case_id;
   std::string name;  ///< as in a plan
   Standing standing = Standing::missing;
-  std::string reason;                   ///< of a failure, a divergence, or of being stale
+  std::string reason;                   ///< in words; may be empty
   std::optional<RunProgress> progress;  ///< of a run that was begun
   std::filesystem::path run_folder;     ///< the run that this tells of; empty: none
+  std::filesystem::path sealed_folder;  ///< the newest sealed run, where it can be used; empty: none
+  bool completed = false;               ///< that sealed run came to its end
 };
 
 /// Of all tasks of a study's plan, beds included.

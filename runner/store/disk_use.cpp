@@ -19,8 +19,8 @@ using Path = fs::path;
 
 /// Absent: no file of ours has such a name.
 std::optional<Purpose> purpose_of(const std::string& path) {
-  static const std::set<std::string> kRecord = {kManifestFile, "dropped.json", "log.txt", "attempt.json",
-                                                "progress.json"};
+  static const std::set<std::string> kRecord = {kManifestFile,  "dropped.json",  "log.txt",
+                                                "attempt.json", "progress.json", "failure.json"};
   static const std::regex kFields("(grains|contacts|fields|flow)\\.(vtkhdf|xdmf)|surface\\.h5");
   static const std::regex kRunning("checkpoint/[ab]\\.h5|segment/[0-9]{6}\\.h5|post_mortem\\.h5");
   if (is_temporary(path) || path.ends_with(".aside")) return Purpose::leftover;

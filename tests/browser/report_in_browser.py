@@ -12,9 +12,10 @@ import unittest
 
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.support.ui import WebDriverWait
 
 HOSTILE = "</script><script>document.title='no'</script><img src='http://example.org/a.png'>"
 STUDY = {
@@ -168,7 +169,9 @@ class Report(unittest.TestCase):
         self.assertEqual(self.ask("return [...document.querySelectorAll('table')].filter(t => !t.caption || "
                                   "!t.querySelector('thead th[scope=col]') || !t.querySelector('tbody th[scope=row]')).length"), 0)
         self.browser.find_element(By.CSS_SELECTOR, "details.values summary").click()
-        rows = self.ask("return document.querySelectorAll('details.values tbody tr').length")
+        # The browser tells of the opening, on which the table is filled, in its own time.
+        rows = WebDriverWait(self.browser, 10).until(
+            lambda _: self.ask("return document.querySelectorAll('details.values tbody tr').length"))
         self.assertGreater(rows, 4)
 
     def test_prints_whole_charts_and_no_buttons(self):

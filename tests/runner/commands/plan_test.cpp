@@ -109,7 +109,7 @@ TEST_F(PlanAfterRun, OtherRecordsMakeDrivesStaleWithTheReason) {
 TEST_F(PlanAfterRun, BadInputIsTwo) {
   EXPECT_EQ(place->run({"plan", "missing.json"}).exit_code, 2);
   EXPECT_EQ(place->run({"plan", "small.json", "--set", "pile.dept=1"}).exit_code, 2);
-  const Finished cores = place->run({"plan", "small.json", "--jobs", "4000"});
+  const Finished cores = place->run({"run", "small.json", "--jobs", "4000"});
   EXPECT_EQ(cores.exit_code, 2);
   EXPECT_THAT(cores.error, HasSubstr("--oversubscribe"));
 }

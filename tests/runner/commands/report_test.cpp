@@ -99,9 +99,9 @@ TEST_F(ReportCommand, HoldsHostileTextsAsData) {
 
 TEST_F(ReportCommand, CountsVerdictsAndCases) {
   EXPECT_THAT(counts(),
-              testing::IsSupersetOf({"1 claim missing", "4 cases done", "0 cases failed", "2 cases missing"}));
+              testing::IsSupersetOf({"1 claim missing", "4 cases completed", "0 cases failed", "2 cases missing"}));
   const json rest = block("verdicts", "table", 3);
-  EXPECT_EQ(rest.at("caption"), "Cases that are not done");
+  EXPECT_EQ(rest.at("caption"), "Cases that are not completed");
   EXPECT_EQ(rest.at("rows"), 2);
 }
 
@@ -159,7 +159,7 @@ TEST_F(ReportCommand, ShowsWhatIsStaleAndHowARunEnded) {
   const std::string text = content(place.folder() / "r.html");
   EXPECT_THAT(text, HasSubstr("3 cases stale"));
   EXPECT_THAT(text, HasSubstr("frame at 0.05 m not recorded"));
-  EXPECT_THAT(text, HasSubstr("1 case unfinished"));
+  EXPECT_THAT(text, HasSubstr("1 case interrupted"));
   EXPECT_THAT(text, HasSubstr("first line\\n\\u003c/script"));
   EXPECT_THAT(text, Not(HasSubstr(kHostile)));
 }

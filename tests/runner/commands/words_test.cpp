@@ -79,7 +79,7 @@ TEST(DidYouMean, AWordThatDoesNotExistEndsWithTwoAndNamesTheNearest) {
   }
   const Finished unknown = place.run({"xyzzy"});
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.error, HasSubstr("there are run, query, curve"));
+  EXPECT_THAT(unknown.error, HasSubstr("there are run, plan, status"));
   EXPECT_THAT(unknown.error, Not(HasSubstr("did you mean")));
   auto after = everything(place.folder());
   std::erase_if(after, [&](const auto& file) { return !before.contains(file.first); });
