@@ -85,6 +85,7 @@ Condition parse_condition(const std::string& text) {
   }
   if (length == 0) refuse(text, "after the path comes one of = != < <= > >=");
   condition.value = parse_value(text, trimmed(rest.substr(length)));
+  if (std::holds_alternative<double>(condition.value)) condition.written = trimmed(rest.substr(length));
   const bool ordered = condition.op != Op::equal && condition.op != Op::not_equal;
   const bool is_number = std::holds_alternative<double>(condition.value) || may_be_quantity(condition.value);
   if (ordered && !is_number) refuse(text, "only numbers have an order");

@@ -15,6 +15,7 @@ struct Condition {
   std::string path;
   Op op = Op::equal;
   std::variant<std::monostate, double, std::string> value;  ///< monostate: null
+  std::string written;                                      ///< a number as it was written: it may be an id's digits
 };
 
 /// "pile.tip = flat", "bed.seed<=3", "outcome != 'diverged'", "fluid = null". A value is a number, null, bare words or
