@@ -60,6 +60,12 @@ class Sheet {
 
   std::FILE* file() const { return file_; }
 
+  /// What it holds from now on, to be read from its beginning.
+  void put(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), file_);
+    std::rewind(file_);
+  }
+
   std::string text() const {
     std::string all;
     std::rewind(file_);
@@ -159,12 +165,11 @@ void draw_with_gnuplot(const std::string& script, const fs::path& svg) {
   int code = 0;
   try {
     const Sheet sheet;
-    bp::opstream input;
+    Sheet question;  // no pipe, whose writer dies of a gnuplot that was killed
+    question.put(script);
     bp::ipstream output;
-    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::std_in<input, bp::std_out> sheet.file(),
+    bp::child child(bp::exe = gnuplot, bp::args = {"-d", "-"}, bp::std_in<question.file(), bp::std_out> sheet.file(),
                     bp::std_err > output);
-    input << script << std::flush;
-    input.pipe().close();
     for (std::string line; std::getline(output, line);) {
       if (complaint.empty() && line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
     }

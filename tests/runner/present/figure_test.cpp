@@ -138,6 +138,22 @@ TEST_F(FigureTest, ADeathWhileDrawingLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(pictures));
 }
 
+TEST_F(FigureTest, AGnuplotThatDiesTakesNobodyAlong) {
+  const fs::path fake = folder / "bin" / "gnuplot";
+  fs::create_directories(fake.parent_path());
+  std::ofstream(fake) << "#!/bin/sh\nkill -9 $$\n";
+  fs::permissions(fake, fs::perms::owner_all);
+  // More of a script than a pipe holds.
+  Figure figure;
+  for (int i = 0; i < 40; ++i) figure.groups.push_back({"pile " + std::to_string(i), {ramp(1.2)}});
+  ASSERT_GT(gnuplot_script(figure).size(), 1U << 17);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (fake.parent_path().string() + ":" + path).c_str(), 1);
+  EXPECT_THROW(draw(figure, folder / "a.svg"), store::StoreError);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_FALSE(fs::exists(folder / "a.svg"));
+}
+
 TEST_F(FigureTest, NoTextIsRunAsACommandOrBreaksThePicture) {
   const std::string file = (folder / "harm").string();
   const std::string harm =
