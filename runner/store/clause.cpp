@@ -20,8 +20,8 @@ bool has_text(SQLite::Database& sqlite, const std::string& path) {
 /// On what every run has: a text, = or !=.
 Clause of_run(SQLite::Database& sqlite, const Name& name, const Condition& condition) {
   // The first digits of a case id may look like a number: "4120392".
-  const bool is_number = std::holds_alternative<double>(condition.value);
-  const auto* text = is_number ? &condition.written : std::get_if<std::string>(&condition.value);
+  const bool is_digits = name.subject == Subject::bed_case && std::holds_alternative<double>(condition.value);
+  const auto* text = is_digits ? &condition.written : std::get_if<std::string>(&condition.value);
   if (text == nullptr) throw std::invalid_argument(name.text + " is a text");
   const bool equal = condition.op == Op::equal;
   const std::string in = equal ? "r.case_id IN (" : "r.case_id NOT IN (";

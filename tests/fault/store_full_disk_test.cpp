@@ -118,7 +118,7 @@ TEST(FullDisk, EndsInAClearErrorAndCostsNothingThatWasPromised) {
 TEST(SmallFiles, EndInAClearErrorAndCostNothingThatWasPromised) {
   const Scratch scratch;
   std::size_t errors = 0, successes = 0;
-  for (rlim_t bytes = 500; bytes < 200'000; bytes += bytes / 4) {
+  for (rlim_t bytes = 500; bytes < 500'000; bytes += bytes / 4) {
     const Verdict verdict = with_small_files(scratch.fresh("root"), bytes);
     EXPECT_TRUE(verdict == got_through || verdict == reported) << bytes << " bytes: " << verdict;
     ++(verdict == got_through ? successes : errors);
