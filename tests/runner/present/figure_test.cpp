@@ -145,7 +145,7 @@ TEST_F(FigureTest, AGnuplotThatDiesTakesNobodyAlong) {
   fs::permissions(fake, fs::perms::owner_all);
   // More of a script than a pipe holds.
   Figure figure;
-  for (int i = 0; i < 40; ++i) figure.groups.push_back({"pile " + std::to_string(i), {ramp(1.2)}});
+  for (int i = 0; i < 400; ++i) figure.groups.push_back({"pile " + std::to_string(i), {ramp(1.2)}});
   ASSERT_GT(gnuplot_script(figure).size(), 1U << 17);
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", (fake.parent_path().string() + ":" + path).c_str(), 1);
