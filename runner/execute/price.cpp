@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "runner/store/catalogue.h"
-#include "runner/store/store_error.h"
+#include "runner/store/database.h"
 
 namespace seapile::execute {
 namespace {
@@ -76,11 +76,8 @@ Work work_of(const std::string& kind, const std::vector<store::Parameter>& param
 }
 
 std::vector<store::PastCost> history_of(const std::filesystem::path& root) {
-  try {
-    return store::Catalogue::open_read_only(root).costs();
-  } catch (const store::StoreError&) {
-    return {};
-  }
+  if (!std::filesystem::exists(root / store::kCatalogueFile)) return {};
+  return store::Catalogue::open_read_only(root).costs();
 }
 
 double median(std::vector<double> values) {

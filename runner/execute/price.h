@@ -49,8 +49,8 @@ class PriceList {
 
 using Prices = std::vector<std::optional<Price>>;
 
-/// One per task of the plan; none for what is fresh, and none at all where there is no catalogue that can be read: a
-/// price is a comfort, and what is wrong with a catalogue is told where it is needed.
+/// One per task of the plan; none for what is fresh, and none at all where there is no catalogue yet. Throws
+/// store::StoreError.
 Prices prices_of(const study::Study& study, const Plan& plan, const std::filesystem::path& root);
 
 /// The median price [CPU s] of the cases of a kind that are to be run; absent when none has a price.

@@ -23,12 +23,11 @@ std::vector<Parameter> parameters_of(SQLite::Statement& rows, const std::string&
 }  // namespace
 
 std::vector<PastCost> past_costs(SQLite::Database& sqlite) {
-  SQLite::Statement runs(sqlite,
-                         "SELECT r.case_id, r.cpu_seconds, r.peak_memory_mb, "
-                         "(SELECT total(bytes) FROM artifact WHERE artifact.run_id = r.run_id) "
-                         "FROM run r JOIN kase k ON k.case_id = r.case_id "
-                         "WHERE k.kind = ?1 AND r.outcome = 'completed' AND r.cpu_seconds IS NOT NULL "
-                         "ORDER BY r.run_id DESC LIMIT ?2");
+  SQLite::Statement runs(
+      sqlite,
+      "SELECT r.case_id, r.cpu_seconds, r.peak_memory_mb, r.bytes FROM run r JOIN kase k ON k.case_id = r.case_id "
+      "WHERE k.kind = ?1 AND r.outcome = 'completed' AND r.cpu_seconds IS NOT NULL "
+      "ORDER BY r.run_id DESC LIMIT ?2");
   SQLite::Statement parameters(sqlite, "SELECT path, num, txt FROM param WHERE case_id = ?1 ORDER BY path");
   std::vector<PastCost> costs;
   for (const char* kind : {"bed", "drive", "flow"}) {
