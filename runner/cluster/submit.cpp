@@ -119,7 +119,7 @@ void write_files(const study::Study& study, const execute::Plan& plan, const Lay
         const execute::Request request = request_of(study, task, root, options);
         store::write_text(submission.folder / "requests" / (task.id + ".json"), execute::to_json(request) + "\n");
         submission.cases.push_back(
-            {task.id, task.name, name(task.kind), number, index, store::newest_run(root, task.id).filename().string()});
+            {task.id, task.name, name(task.kind), number, index, task.newest});
         ids.push_back(task.id);
       }
       lines += fmt::format("{}\n", fmt::join(ids, " "));

@@ -162,6 +162,7 @@ Request request_of(const study::Study& study, const Task& task, const CampaignOp
   Request request;
   request.root = fs::absolute(options.root).string();
   request.case_id = task.id;
+  request.newest = task.newest;
   request.scene = c.scene;
   request.record = study.record;
   request.checkpoint_every = options.checkpoint_every;

@@ -259,8 +259,13 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
   // Decided under the claim: another runner may have finished the case since the plan was made.
   const Asked asked{simulation::numerics_versions(request.scene), record_of_runs(request.record, request.scene),
                     request.bed_run};
-  const Decision decision = decide(asked, read_history(request.root, request.case_id));
+  const History history = read_history(request.root, request.case_id);
+  const Decision decision = decide(asked, history);
   if (decision.action == Action::fresh) return kDone;
+  if (const auto why = diverged_since(request.newest, asked, history)) {
+    tell(Trouble{*why});
+    return kDiverged;
+  }
   const std::string run = decision.run.empty() ? store::next_run(case_folder, false) : decision.run;
   return Job(request, case_folder / run, tell).run(decision.action == Action::resume);
 }

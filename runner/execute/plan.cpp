@@ -67,6 +67,8 @@ std::string run_to_come(const History& bed, const Decision& decision) {
   return bed.past || bed.interrupted ? "" : "0001";  // "": some later number, which no drive can have been built on
 }
 
+std::string newest_of(const History& history) { return history.past ? history.past->run : ""; }
+
 int most_threads(const scene::SceneSpec& scene) {
   return static_cast<int>(std::clamp<std::int64_t>(scene.bed.grains.count / kGrainsPerThread, 1, 1024));
 }
@@ -160,6 +162,7 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     bed->second.history = disk(c.bed_id);
     plan.tasks.push_back({Kind::bed, c.bed_id, i, std::nullopt, "bed " + short_id(c.bed_id), most_threads(c.scene),
                           decide({numerics(bed_alone(c.scene)), std::nullopt, ""}, bed->second.history)});
+    plan.tasks.back().newest = newest_of(bed->second.history);
   }
   // A drive by itself: a bed that has been run again since, or is lost, does not count yet.
   std::vector<History> histories(study.cases.size());
@@ -171,6 +174,7 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     Asked asked{numerics(c.scene), record_of_runs(study.record, c.scene), ""};
     if (is_water(c.scene)) {
       plan.tasks.push_back({Kind::flow, c.id, i, std::nullopt, name, 1, decide(asked, histories[i])});
+      plan.tasks.back().newest = newest_of(histories[i]);
       continue;
     }
     BedState& bed = beds.at(c.bed_id);
@@ -180,6 +184,7 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     const Decision decision = decide(asked, histories[i]);
     bed.needed |= decision.action != Action::fresh;
     plan.tasks.push_back({Kind::drive, c.id, i, bed.task, name, most_threads(c.scene), decision});
+    plan.tasks.back().newest = newest_of(histories[i]);
   }
   // A bed that is run for one drive is new to all that are built on it.
   for (Task& task : plan.tasks) {
@@ -205,6 +210,14 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     trimmed.tasks.push_back(std::move(task));
   }
   return trimmed;
+}
+
+std::optional<std::string> diverged_since(const std::string& newest, const Asked& asked, const History& history) {
+  if (!history.past || history.past->run == newest || !history.past->damage.empty()) return {};
+  const PastRun& past = *history.past;
+  const bool same = past.bed_run == asked.bed_run && moved_numerics(past.numerics, asked.numerics).empty();
+  if (past.outcome != Outcome::diverged || !same) return {};
+  return past.reason;
 }
 
 std::vector<std::string> describe(const Plan& plan) {

@@ -65,6 +65,10 @@ struct Decision {
 /// What to do about one case.
 Decision decide(const Asked& asked, const History& history);
 
+/// Why the case diverged with what is asked for, after `newest` was its newest run: somebody else has tried it
+/// meanwhile, and it would diverge again. Absent when it did not.
+std::optional<std::string> diverged_since(const std::string& newest, const Asked& asked, const History& history);
+
 /// What `have` lacks of `want`, in words; empty when it covers it: the same rhythm and grid, and at least its frames.
 std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want);
 
@@ -80,6 +84,7 @@ struct Task {
   std::string name;                ///< short and for people: "bed 3f2a90c1d4" or "pile.tip=flat"
   int most_threads = 1;            ///< with more its threads would mostly wait for each other
   Decision decision;
+  std::string newest = {};               ///< its newest sealed run when it was planned; "": none
   std::optional<double> memory_mb = {};  ///< that it is thought to need [MB]; absent: no history
 };
 

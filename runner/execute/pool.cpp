@@ -83,9 +83,12 @@ class Pool {
       const History bed = store_.disk(of_study.bed_id);
       asked.bed_run = bed.past ? bed.past->run : "";
     }
-    task.decision = decide(asked, store_.disk(task.id));
+    const History history = store_.disk(task.id);
+    task.decision = decide(asked, history);
     if (task.decision.action == Action::fresh) {
       change(i, State::completed, "by another process");
+    } else if (const auto why = diverged_since(task.newest, asked, history)) {
+      change(i, State::diverged, "by another process: " + *why);
     } else {
       change(i, State::ready, task.decision.reason);
     }

@@ -31,6 +31,7 @@ std::string to_json(const Request& request) {
               {"record", json::parse(study::to_json(request.record))},
               {"bed_id", request.bed_id},
               {"bed_run", request.bed_run},
+              {"newest", request.newest},
               {"threads", request.threads},
               {"checkpoint_every", request.checkpoint_every},
               {"parent", request.parent}}
@@ -49,6 +50,7 @@ Request request_from_json(const std::string& text, const std::string& file) {
     request.record = study::record_from_json(object.at("record").dump());
     object.at("bed_id").get_to(request.bed_id);
     object.at("bed_run").get_to(request.bed_run);
+    object.at("newest").get_to(request.newest);
     object.at("threads").get_to(request.threads);
     object.at("checkpoint_every").get_to(request.checkpoint_every);
     object.at("parent").get_to(request.parent);
@@ -64,6 +66,7 @@ Request request_from_json(const std::string& text, const std::string& file) {
   // Both become parts of a path.
   if (!only(request.bed_id, "0123456789abcdef")) refuse(file, "/bed_id", "is not a case id");
   if (!only(request.bed_run, "0123456789")) refuse(file, "/bed_run", "is not a run number");
+  if (!only(request.newest, "0123456789")) refuse(file, "/newest", "is not a run number");
   if (request.threads < 1) refuse(file, "/threads", "must be at least 1");
   if (!(request.checkpoint_every >= 0)) refuse(file, "/checkpoint_every", "must not be negative");
   if (study::case_id(request.canonical) != request.case_id) {

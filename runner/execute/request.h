@@ -17,6 +17,7 @@ struct Request {
   std::string bed_id;        ///< of a drive's bed; "" otherwise
   std::string bed_run;  ///< the bed's run to start from; "" otherwise, and for a drive whose bed is still to come: the
                         ///< newest one that is fresh when the worker begins
+  std::string newest;   ///< newest sealed run of the case when it was planned; "": none
   int threads = 1;
   double checkpoint_every = 10;  ///< [s] of wall time between two checkpoints
   int parent = 0;                ///< process that the worker must not outlive; 0: none

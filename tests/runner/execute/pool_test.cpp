@@ -333,6 +333,22 @@ TEST_F(PoolTest, ACaseThatAnotherRunnerFinishesIsNotDoneTwice) {
   EXPECT_EQ(exit_code(summary), kDone);
 }
 
+TEST_F(PoolTest, ACaseThatAnotherRunnerSawDivergeIsNotTriedAgain) {
+  prepare();
+  disk.complete_bed("bed");
+  workers->endings["flat"] = {{kClaimHeld, 0, ""}};
+  disk.complete_drive("flat");  // as the other runner leaves it, before this one looks again
+  disk.histories["flat"].past->outcome = simulation::Outcome::diverged;
+  disk.histories["flat"].past->reason = "overlap";
+  const Summary summary = go();
+  EXPECT_EQ(state(summary, "flat"), State::diverged);
+  EXPECT_EQ(std::ranges::count(started(), "flat"), 1);
+  EXPECT_EQ(exit_code(summary), kSomeCasesFailed);
+  // What had diverged before it was planned is tried once more.
+  workers.reset();
+  EXPECT_EQ(state(go(), "flat"), State::completed);
+}
+
 TEST_F(PoolTest, ACaseThatAnotherRunnerGaveUpIsTakenOver) {
   prepare();
   workers->endings["flat"] = {{kClaimHeld, 0, ""}};

@@ -2,9 +2,9 @@
 // from end to end. Plans are what SQLite makes without statistics, so they do not depend on how many rows there are.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <regex>
 #include <set>
 
@@ -125,6 +125,26 @@ TEST_F(QueryPlans, AListOfAllRunsGoesThroughTheNewestOnes) {
     EXPECT_TRUE(found.starts_with("SCAN r USING INDEX run_newest in SELECT r.run_id")) << expression << ": " << found;
     EXPECT_EQ(std::ranges::count(found, '\n'), 1) << found;
     EXPECT_EQ(scans_of("tips", expression, {}), "") << expression;
+  }
+}
+
+/// Half of all tips are flat, and few runs resist as much: those are found first, and asked for their tip.
+TEST_F(QueryPlans, AMetricFindsTheRunsThatTheOtherConditionsTest) {
+  database_ = std::make_unique<Database>(Database::open_for_reading(root_));
+  SQLite::Database& sqlite = database_->sqlite();
+  for (const char* expression :
+       {"tip = flat and tip_resistance_mean > 0", "tip_resistance_mean > 0 and kind = drive"}) {
+    const Listener listener(sqlite);
+    query_table(sqlite, "", parse_expression(expression), {});
+    std::string plan;
+    for (const std::string& statement : std::set<std::string>(listener.heard())) {
+      if (!statement.starts_with("SELECT r.run_id")) continue;
+      SQLite::Statement rows(sqlite, "EXPLAIN QUERY PLAN " + statement);
+      while (rows.executeStep()) plan += rows.getColumn("detail").getString() + "\n";
+    }
+    EXPECT_TRUE(plan.starts_with("SEARCH r USING INTEGER PRIMARY KEY")) << expression << ": " << plan;
+    EXPECT_NE(plan.find("metric_by_value"), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("param_by_txt"), std::string::npos) << plan;
   }
 }
 
