@@ -40,6 +40,7 @@ void add_reindex(CLI::App& app, Call& call);
 void add_schema(CLI::App& app, Call& call);
 void add_new(CLI::App& app, Call& call);
 void add_completion(CLI::App& app, Call& call);
+void add_doctor(CLI::App& app, Call& call);
 void add_ingest(CLI::App& app, Call& call);
 void add_migrate(CLI::App& app, Call& call);
 void add_exec(CLI::App& app, Call& call);

@@ -12,12 +12,14 @@
 #include "runner/execute/attempt.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/plan.h"
+#include "runner/present/bytes.h"
 #include "runner/store/garbage.h"
 
 namespace seapile::commands {
 namespace {
 
 namespace fs = std::filesystem;
+using present::bytes_text;
 using store::Purpose;
 
 struct GcArguments {
@@ -44,13 +46,6 @@ std::uint64_t read_bytes(const std::string& text) {
   if (error != std::errc() || found == kPrefixes.end() || !(bytes >= 0 && bytes <= kMost))
     throw UsageError(fmt::format("--budget: \"{}\" is no size; a number with K, M, G or T, such as 500M or 50G", text));
   return static_cast<std::uint64_t>(bytes);
-}
-
-std::string bytes_text(std::uint64_t bytes) {
-  auto number = static_cast<double>(bytes);
-  std::size_t prefix = 0;
-  for (; number >= kStep && prefix + 1 < kPrefixes.size(); ++prefix) number /= kStep;
-  return prefix == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}iB", number, kPrefixes[prefix]);
 }
 
 /// The runs of beds that interrupted drives may be built on. An attempt says only which run of its bed it is, so the

@@ -55,6 +55,7 @@ int run_program(int count, char** arguments) {
   commands::add_new(app, call);
   commands::add_schema(app, call);
   commands::add_completion(app, call);
+  commands::add_doctor(app, call);
   commands::add_ingest(app, call);
   commands::add_migrate(app, call);
   commands::add_exec(app, call);

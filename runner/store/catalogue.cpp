@@ -46,6 +46,18 @@ std::vector<Path> run_folders(const Path& root) {
   return folders;
 }
 
+/// Those of which the catalogue has no row.
+std::vector<Path> not_listed(SQLite::Database& sqlite, std::vector<Path> run_folders) {
+  SQLite::Statement listed(sqlite, "SELECT 1 FROM run WHERE case_id = ? AND number = ?");
+  std::erase_if(run_folders, [&](const Path& folder) {
+    listed.reset();
+    listed.bind(1, folder.parent_path().filename().string());
+    listed.bind(2, static_cast<std::int64_t>(run_number(run_name(folder))));
+    return listed.executeStep();
+  });
+  return run_folders;
+}
+
 Path normal(const Path& path) {
   Path whole = std::filesystem::absolute(path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
@@ -177,21 +189,18 @@ Ingested Catalogue::ingest_missing() {
       ingest_study(sqlite, study);
       ++ingested.studies;
     }
-    SQLite::Statement listed(sqlite, "SELECT 1 FROM run WHERE case_id = ? AND number = ?");
-    std::vector<Path> missing;
-    for (const Path& folder : run_folders(impl_->root)) {
-      listed.reset();
-      listed.bind(1, folder.parent_path().filename().string());
-      listed.bind(2, static_cast<std::int64_t>(run_number(run_name(folder))));
-      if (listed.executeStep()) {
-        ++ingested.known;
-      } else {
-        missing.push_back(folder);
-      }
-    }
-    impl_->ingest(sqlite, missing, ingested);
+    std::vector<Path> folders = run_folders(impl_->root);
+    ingested.known = folders.size();
+    folders = not_listed(sqlite, std::move(folders));
+    ingested.known -= folders.size();
+    impl_->ingest(sqlite, folders, ingested);
   });
   return ingested;
+}
+
+std::vector<Path> Catalogue::missing() const {
+  return guarded(impl_->database.file(),
+                 [&] { return not_listed(impl_->database.sqlite(), run_folders(impl_->root)); });
 }
 
 std::size_t Catalogue::rebuild(std::vector<std::string>* left_out) {

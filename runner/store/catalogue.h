@@ -92,6 +92,8 @@ class Catalogue {
   Ingested ingest_all(const std::vector<std::filesystem::path>& folders);
   /// The same of every run and study below the root that is not listed; what is listed is not read again.
   Ingested ingest_missing();
+  /// The complete run folders below the root that are not listed.
+  std::vector<std::filesystem::path> missing() const;
 
   /// Forgets everything and ingests every study and every complete run folder below the root, in one transaction.
   /// Returns how many runs; `left_out` receives a sentence for each folder whose manifest or files do not hold.

@@ -2,12 +2,12 @@
 
 #include <sqlite3.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <thread>
 
 #include "runner/store/catalogue_sql.h"
+#include "runner/store/file_system.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::store {
@@ -53,26 +53,6 @@ std::string left_as(const Path& file) {
   }
   return "left as " + std::to_string(status.st_ino) + ' ' + std::to_string(status.st_size) + ' ' +
          std::to_string(status.st_mtim.tv_sec) + ' ' + std::to_string(status.st_mtim.tv_nsec) + '\n';
-}
-
-/// Write-ahead logging needs memory shared between processes, which file systems over a network do not give.
-bool is_local(const Path& folder) {
-  struct statfs status {};
-  if (::statfs(folder.c_str(), &status) != 0) throw system_error(Kind::io, "look at", folder);
-  switch (static_cast<unsigned long>(status.f_type) & 0xffffffffUL) {
-    case 0x6969UL:      // NFS
-    case 0x517BUL:      // SMB
-    case 0xFF534D42UL:  // CIFS
-    case 0xFE534D42UL:  // SMB2
-    case 0x0BD00BD0UL:  // Lustre
-    case 0x65735546UL:  // FUSE
-    case 0x5346414FUL:  // AFS
-    case 0x47504653UL:  // GPFS
-    case 0x19830326UL:  // BeeGFS
-      return false;
-    default:
-      return true;
-  }
 }
 
 std::string answer(SQLite::Database& sqlite, const char* question) { return sqlite.execAndGet(question).getString(); }
@@ -135,7 +115,7 @@ Database::Database(const Path& root, Schema schema, std::optional<Descriptor> lo
       if (left.empty() || !before.ends_with(left)) check();
       // Only now: what is damaged is left as it was found.
       sqlite_->exec("PRAGMA synchronous=FULL");
-      answer(*sqlite_, is_local(root) ? "PRAGMA journal_mode=WAL" : "PRAGMA journal_mode=DELETE");
+      answer(*sqlite_, file_system_of(root).is_local ? "PRAGMA journal_mode=WAL" : "PRAGMA journal_mode=DELETE");
     }
     if (schema == Schema::todays) require_schema(*sqlite_, file_, writes);
   });
