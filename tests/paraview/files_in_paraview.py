@@ -151,7 +151,7 @@ class Files(unittest.TestCase):
         for name, heading in (("depth", "depth[m]"), ("tip_resistance", "tip_resistance[Pa]")):
             numpy.testing.assert_array_equal(series[name], [float(row[heading]) for row in table])
         self.assertEqual(names["units"]["depth"], "m")
-        self.assertEqual(names["manifest"]["case"]["id"][:10], case)
+        self.assertEqual(names["manifest"]["case"][:10], case)
         self.assertEqual(len(names["depth"]), 3)
         self.assertEqual(names["last"]["position"].shape[1], 3)
 
