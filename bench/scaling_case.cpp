@@ -72,8 +72,8 @@ ScalingRun run_once(const ScalingState& start, const ScalingOptions& options, in
   hooks.record = [&](const simulation::Record& r) {
     if (r.time > first_time) measured_run.contact_substeps += contact_substeps(r, start.scene.contact);
   };
-  const simulation::RunResult result = simulation::run(start.scene, without_frames(), start.bed,
-                                                       {threads, options.simd}, start.state, start.records, hooks);
+  const simulation::RunResult result = simulation::run(
+      start.scene, without_frames(), start.bed, {threads, options.simd}, start.state, {start.records, {}}, hooks);
   if (result.outcome != simulation::Outcome::completed)
     throw std::runtime_error("a measured run failed: " + result.reason);
 

@@ -101,8 +101,8 @@ Start drive_to_start(const scene::SceneSpec& scene, const Bed& bed, const Option
   return start;
 }
 
-/// The state for a run of another step, sub-step or method: impulses of a solve are forces times its length, and time is
-/// counted in steps.
+/// The state for a run of another step, sub-step or method: impulses of a solve are forces times its length, and time
+/// is counted in steps.
 std::vector<Array> continued(std::vector<Array> checkpoint, const grains::ContactSpec& contact) {
   const grains::ContactSpec state;
   const bool soft = std::holds_alternative<grains::SoftMethod>(contact.method);
@@ -159,13 +159,15 @@ Ours drive_on(const scene::SceneSpec& scene, const Bed& bed, const Start& start,
         peers::overlaps(state.discs, surroundings(scene.bed.domain, outline(scene, options), state.pile_y)));
     analysed = analysed + (Stopwatch::now() - paused);
   };
-  ours.result = run(scene, {}, bed, {}, continued(start.checkpoint, scene.contact), {start.record}, hooks);
+  ours.result =
+      run(scene, {}, bed, {}, continued(start.checkpoint, scene.contact), RecordsSoFar{{start.record}, {}}, hooks);
   if (ours.result.outcome != Outcome::completed) throw std::runtime_error(ours.result.reason);
   ours.cost = end - begin;
   ours.simulated = ours.records.back().time - ours.records.front().time;
   double count = 0;
   for (const Record& r : ours.records)
-    if (r.depth >= options.from) ours.recorded_p999 += r.overlap_p999, ours.residual += r.residual * r.residual, ++count;
+    if (r.depth >= options.from)
+      ours.recorded_p999 += r.overlap_p999, ours.residual += r.residual * r.residual, ++count;
   ours.recorded_p999 /= count;
   ours.residual = std::sqrt(ours.residual / count);
   return ours;
@@ -215,9 +217,9 @@ void run_ours(const Options& options) {
   const auto drive = [&](const char* method, std::int64_t solves, double dt) {
     const Ours ours = drive_on(scene, bed, start, options);
     const peers::Overlaps o = peers::over_moments(ours.moments);
-    table.print("{},{},{:g},{:.6g},{:.0f},{:.4f},{:.4f},{:.5g},{:.5g},{:.5g},{:.0f},{:.5g},{:.4g},{:.4g}\n", method, solves,
-                dt, ours.simulated, ours.simulated / dt, ours.cost.cpu, ours.cost.wall, o.p999, o.mean, o.max, o.contacts,
-                ours.recorded_p999, ours.residual, ours.records.back().kinetic_energy);
+    table.print("{},{},{:g},{:.6g},{:.0f},{:.4f},{:.4f},{:.5g},{:.5g},{:.5g},{:.0f},{:.5g},{:.4g},{:.4g}\n", method,
+                solves, dt, ours.simulated, ours.simulated / dt, ours.cost.cpu, ours.cost.wall, o.p999, o.mean, o.max,
+                o.contacts, ours.recorded_p999, ours.residual, ours.records.back().kinetic_energy);
     table.flush();
     auto series = fmt::output_file((options.out / fmt::format("force_{}_{}.csv", method, solves)).string());
     series.print("depth,span,force\n");
