@@ -16,10 +16,9 @@ void read_strings(const Value& value, std::vector<std::string>& member, base::Pr
     return;
   }
   for (const Value& item : value.items) {
+    if (item.kind == Value::Kind::unusable) continue;  // reported where it was read, as are texts of several lines
     std::string text;
     study::read_string(item, text, problems);
-    if (text.find('\n') != std::string::npos)
-      problems.push_back({study::pointer(item.place), "has more than one line", "a string of one line", ""});
     member.push_back(std::move(text));
   }
 }
