@@ -76,6 +76,17 @@ int code_of(const std::vector<ProbeResult>& results) {
   return any(Probed::stale) ? execute::kCheckFailed : execute::kDone;
 }
 
+/// Whether the catalogue lists what is declared now; if not, says so: the declarations count all the same.
+bool is_listed(const std::filesystem::path& root) {
+  try {
+    store::Catalogue::open(root).refresh_equivalences();
+    return true;
+  } catch (const store::StoreError& error) {
+    fmt::print(stderr, "{}\nThe declarations count all the same; `runner ingest` lists them.\n", error.what());
+    return false;
+  }
+}
+
 int probe(ProbeArguments arguments) {
   if (!std::isfinite(arguments.tolerance))
     throw UsageError("--tolerance: is no number; a relative distance from 0 up, such as 1e-9");
@@ -98,7 +109,10 @@ int probe(ProbeArguments arguments) {
   fmt::print("{}", present::text(table_of(groups, results), arguments.format));
   fmt::print(stderr, "{} case{} equivalent and no longer stale, {} stale as before\n", fresh, fresh == 1 ? "" : "s",
              stale);
-  return stopped != execute::kDone ? stopped : code_of(results);
+  const bool listed = fresh == 0 || is_listed(root);
+  if (stopped != execute::kDone) return stopped;
+  const int code = code_of(results);
+  return code == execute::kDone && !listed ? execute::kStoreUnusable : code;
 }
 
 }  // namespace

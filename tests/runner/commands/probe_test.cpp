@@ -203,6 +203,37 @@ TEST_F(Probe, ADamagedDeclarationCountsForNothingAndIsNamedInOneLine) {
   EXPECT_EQ(planned(), (Actions{{"bed", {"fresh"}}, {"drive", {"fresh"}}}));
 }
 
+TEST_F(Probe, DeclarationsAreRowsOfTheCatalogueWhichAReindexingMakesAgain) {
+  age();
+  ASSERT_EQ(place.run({"probe", "small.json"}).exit_code, 0);
+  const auto listed = [&] { return rows({"query", "--sql", "select * from equivalence order by kind"}); };
+  const auto before = listed();
+  ASSERT_THAT(before, SizeIs(2));
+  EXPECT_EQ(before[0].at("kind"), "bed");
+  EXPECT_EQ(before[1].at("likeness"), "identical");
+  const int now = json::parse(before[1].at("numerics_now").get<std::string>()).at("grains");
+  EXPECT_EQ(json::parse(before[1].at("numerics_before").get<std::string>()).at("grains"), now - 1);
+  EXPECT_EQ(before[1].at("state_before"), before[1].at("state_now"));
+  fs::remove(place.results() / "catalogue.sqlite");
+  EXPECT_EQ(place.run({"reindex"}).exit_code, 0);
+  EXPECT_EQ(listed(), before);
+  EXPECT_EQ(place.run({"verify"}).exit_code, 0);
+
+  const fs::path damaged = place.results() / "equivalents" / "damaged.json";
+  std::ofstream(damaged) << "{}";
+  for (const char* command : {"reindex", "verify"}) {
+    const Finished finished = place.run({command});
+    EXPECT_EQ(finished.exit_code, 3) << command;
+    EXPECT_THAT(finished.out, HasSubstr("damaged.json")) << command;
+  }
+  EXPECT_EQ(listed(), before);
+  // One that is withdrawn is no longer listed.
+  fs::remove(damaged);
+  fs::remove(declarations().at(0));
+  EXPECT_EQ(place.run({"ingest"}).exit_code, 0);
+  EXPECT_EQ(listed(), std::vector<json>{before[1]});
+}
+
 TEST_F(Probe, ADriveWhoseBedIsGoneCannotBeProbedAndStaysStale) {
   age();
   fs::remove_all(runs("bed").at(0));

@@ -7,6 +7,10 @@
 #include <functional>
 #include <limits>
 
+#include "runner/store/run_folder.h"
+#include "tests/runner/store/sample_run.h"
+#include "tests/runner/store/scratch.h"
+
 namespace seapile::present {
 namespace {
 
@@ -59,6 +63,32 @@ TEST(Inequality, WhatOneOfThemLacksIsNeverWithinATolerance) {
   EXPECT_THAT(with([](RunComparison& one) { one.uncompared = {"pile_work"}; }), HasSubstr("pile_work"));
   EXPECT_EQ(with([](RunComparison& one) { one.differ_alone = {"completed and diverged"}; }), "completed and diverged");
   EXPECT_THAT(with([](RunComparison& one) { one.metrics.clear(), one.curves.clear(); }), HasSubstr("nothing"));
+}
+
+/// A drive whose records say nothing of the tip's resistance.
+std::filesystem::path write_without_resistance(const std::filesystem::path& root) {
+  const store::RunHeader header = store::sample::drive_header();
+  const auto folder = store::case_folder(root, header.case_id) / "0001";
+  store::RunWriter writer(folder, header);
+  for (simulation::Record record : store::sample::records(0, 20)) {
+    record.tip_resistance = std::numeric_limits<double>::quiet_NaN();
+    writer.add(record);
+  }
+  writer.finish(store::sample::drive_result(), store::sample::provenance(), nullptr);
+  return folder;
+}
+
+TEST(Inequality, AColumnThatOneRunLacksIsSeenThoughFinalStateAndMetricsAreTheSame) {
+  const store::Scratch scratch;
+  const auto finished = [](const std::filesystem::path& folder) {
+    return FinishedRun{folder, store::read_manifest(folder)};
+  };
+  const FinishedRun whole = finished(store::sample::write(scratch.fresh("whole")).drive);
+  const FinishedRun without = finished(write_without_resistance(scratch.fresh("without")));
+  EXPECT_EQ(inequality(compare(whole, whole), 0), "");
+  EXPECT_EQ(inequality(compare(without, without), 0), "");
+  EXPECT_THAT(inequality(compare(whole, without), 1), HasSubstr("tip_resistance"));
+  EXPECT_THAT(inequality(compare(without, whole), 1), HasSubstr("tip_resistance"));
 }
 
 }  // namespace
