@@ -8,6 +8,7 @@
 
 #include "runner/commands/command.h"
 #include "runner/commands/probed.h"
+#include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/provenance.h"
 #include "runner/store/equivalence.h"
@@ -87,11 +88,11 @@ bool is_listed(const std::filesystem::path& root) {
   }
 }
 
-int probe(ProbeArguments arguments) {
+int probe(const ProbeArguments& arguments) {
   if (!std::isfinite(arguments.tolerance))
     throw UsageError("--tolerance: is no number; a relative distance from 0 up, such as 1e-9");
-  arguments.sharing.cores = execute::usable_cores();
-  if (const auto objection = execute::objection(arguments.sharing); !objection.empty()) throw UsageError(objection);
+  const execute::Sharing sharing = execute::on_this_machine(arguments.sharing);
+  if (const auto objection = execute::objection(sharing); !objection.empty()) throw UsageError(objection);
   const std::filesystem::path root = arguments.root;
   const std::vector<ProbeGroup> groups = probe_groups(arguments.studies, root);
   if (groups.empty()) {
@@ -99,7 +100,7 @@ int probe(ProbeArguments arguments) {
     return execute::kNothingMatched;
   }
   int stopped = execute::kDone;
-  const std::vector<ProbeResult> results = probe(groups, root, arguments.sharing, arguments.tolerance, stopped);
+  const std::vector<ProbeResult> results = probe(groups, root, sharing, arguments.tolerance, stopped);
   std::size_t fresh = 0, stale = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const bool equivalent = results[i].probed == Probed::equivalent;

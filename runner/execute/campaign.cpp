@@ -38,6 +38,12 @@ double memory_of(const fs::path& root, const std::string& case_id) {
 
 }  // namespace
 
+Sharing on_this_machine(Sharing sharing) {
+  sharing.cores = usable_cores();
+  if (!sharing.memory_mb) sharing.memory_mb = kShareOfMemory * available_memory_mb();
+  return sharing;
+}
+
 store::StudyEntry entry_of(const study::Study& study) {
   store::StudyEntry entry{study.name, study.question, study.file_sha256, {}};
   for (const study::Case& c : study.cases) entry.cases.emplace_back(c.id, c.labels);
@@ -66,8 +72,7 @@ Campaign::Campaign(const study::Study& study, CampaignOptions options)
       options_(std::move(options)),
       numerics_(todays_numerics),
       equivalences_(declared_equivalences(options_.root)) {
-  options_.sharing.cores = usable_cores();
-  if (!options_.sharing.memory_mb) options_.sharing.memory_mb = kShareOfMemory * available_memory_mb();
+  options_.sharing = on_this_machine(options_.sharing);
   const Disk disk = [this](const std::string& id) { return read_history(options_.root, id); };
   plan_ = make_plan(study_, numerics_, disk, equivalences_);
 }

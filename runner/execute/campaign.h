@@ -29,6 +29,9 @@ struct CaseOutcome {
   std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
 };
 
+/// The wishes of a user with what this machine has: its cores and, where nothing else was wished, most of its memory.
+Sharing on_this_machine(Sharing sharing);
+
 /// What the catalogue knows of a study.
 store::StudyEntry entry_of(const study::Study& study);
 

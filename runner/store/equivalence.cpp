@@ -146,7 +146,8 @@ std::string moved_text(const NumericsList& before, const NumericsList& now) {
   return fmt::format("{}", fmt::join(moved, ", "));
 }
 
-bool is_about(const Equivalence& equivalence, const std::string& kind, const NumericsList& before, const NumericsList& now) {
+bool is_about(const Equivalence& equivalence, const std::string& kind, const NumericsList& before,
+              const NumericsList& now) {
   return equivalence.kind == kind && same_numerics(equivalence.before, before) && same_numerics(equivalence.now, now);
 }
 

@@ -22,7 +22,7 @@ std::string moved_text(const NumericsList& before, const NumericsList& now);
 /// What is declared of all runs of a kind that were made with the whole list `before`, where `now` is asked for.
 struct Equivalence {
   std::string kind;                     ///< "bed", "drive" or "flow"
-  NumericsList before, now;                 ///< all modules that computed the runs
+  NumericsList before, now;             ///< all modules that computed the runs
   std::string case_id;                  ///< of the case that was computed again
   std::string run;                      ///< "0001": its run with the numerics before
   std::string state_before, state_now;  ///< bits of both final states (final_state.h)
@@ -38,7 +38,8 @@ struct Equivalence {
 
 /// Whether it is about runs of that kind and of those two lists. A chain is not joined: that 1 -> 2 and 2 -> 3 are
 /// declared says nothing of 1 -> 3, for distances add up and a sum was never measured.
-bool is_about(const Equivalence& equivalence, const std::string& kind, const NumericsList& before, const NumericsList& now);
+bool is_about(const Equivalence& equivalence, const std::string& kind, const NumericsList& before,
+              const NumericsList& now);
 
 /// "grains 1 -> 2, probe of case 1a2b3c4d5e within 3e-09 (tolerance 1e-06)".
 std::string in_words(const Equivalence& equivalence);
