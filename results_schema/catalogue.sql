@@ -1,7 +1,7 @@
--- The catalogue: <root>/catalogue.sqlite, version 2.
+-- The catalogue: <root>/catalogue.sqlite, version 3.
 --
--- An index of the sealed run folders below <root>/cases and of the studies below <root>/studies: everything in it is
--- made again from those at any time. This text is compiled into the program. Numbers are SI. What older versions lacked
+-- An index of the sealed run folders below <root>/cases, of the studies below <root>/studies and of the declarations
+-- below <root>/equivalents: everything in it is made again from those at any time. This text is compiled into the program. Numbers are SI. What older versions lacked
 -- is said in migrations/, one file for each version, which brings a catalogue of the version before to it.
 
 -- A study, as it was last planned.
@@ -135,6 +135,30 @@ CREATE TABLE numerics (
   PRIMARY KEY (run_id, module)
 ) STRICT, WITHOUT ROWID;
 
+-- Older numerics whose results can stand for those of newer ones, as a probe has measured on one case of each kind: runs
+-- of the kind that were made with exactly the versions before are fresh where exactly the versions now are asked for.
+-- Two rows are not to be joined into one: distances add up.
+CREATE TABLE equivalence (
+  kind            TEXT NOT NULL,                                -- of the runs: "bed", "drive" or "flow"
+  numerics_before TEXT NOT NULL,                                -- JSON {module: version}, all modules of such a run
+  numerics_now    TEXT NOT NULL,                                -- JSON likewise, of the run that it was compared with
+  case_id         TEXT NOT NULL CHECK (length(case_id) = 64),   -- the case that was computed again
+  number          INTEGER NOT NULL,                             -- of its run with the numerics before
+  state_before    TEXT NOT NULL,                                -- bits of that run's final state, 16 hex digits; "": none
+  state_now       TEXT NOT NULL,                                -- bits of the other's
+  likeness        TEXT NOT NULL,                                -- "identical", or within "rounding" or the "tolerance"
+  largest         REAL NOT NULL,                                -- relative distance of metrics and curves [-]
+  largest_of      TEXT NOT NULL,                                -- the metric or column; "" where nothing moved
+  tolerance       REAL NOT NULL,                                -- that was allowed [-]
+  date            TEXT NOT NULL,                                -- of the probe, ISO 8601 in UTC
+  version         TEXT NOT NULL,                                -- of the Seapile that computed it again
+  commit_sha      TEXT NOT NULL,                                -- of its source
+  dirty           INTEGER NOT NULL CHECK (dirty IN (0, 1)),     -- 1: the source had changes
+  file            TEXT NOT NULL,                                -- name of the declaration, below <root>/equivalents
+  seal            TEXT NOT NULL,                                -- SHA-256 of the declaration
+  PRIMARY KEY (kind, numerics_before, numerics_now)
+) STRICT, WITHOUT ROWID;
+
 -- What a run's time went into.
 CREATE TABLE cost (
   run_id  INTEGER NOT NULL REFERENCES run ON DELETE CASCADE,  -- the run
@@ -182,4 +206,4 @@ FROM study JOIN study_case ON study_case.study_id = study.study_id
 LEFT JOIN run ON run.case_id = study_case.case_id AND run.newest = 1
 LEFT JOIN kase ON kase.case_id = run.case_id;
 
-PRAGMA user_version = 2;
+PRAGMA user_version = 3;

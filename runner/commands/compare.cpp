@@ -28,12 +28,6 @@ double tolerance_of(const std::string& text) {
   return tolerance;
 }
 
-bool is_equal(const present::RunComparison& comparison, double tolerance) {
-  if (comparison.likeness == present::Likeness::identical) return true;
-  return tolerance > 0 && comparison.differ_alone.empty() && !comparison.metrics.empty() && comparison.unshared == 0 &&
-         comparison.largest <= tolerance;
-}
-
 int compare(const CompareArguments& arguments) {
   const double tolerance = tolerance_of(arguments.tolerance);
   const auto a = find_run(arguments.root, arguments.a);
@@ -46,7 +40,7 @@ int compare(const CompareArguments& arguments) {
     fmt::print("{}", present::text(present::comparison_table(comparison), arguments.format));
     fmt::print(stderr, "{}\n", present::verdict(comparison));
   }
-  if (!arguments.expect_equal || is_equal(comparison, tolerance)) return execute::kDone;
+  if (!arguments.expect_equal || present::inequality(comparison, tolerance).empty()) return execute::kDone;
   fmt::print(stderr, "FAILED  {} and {} were expected to be equal{}\n", arguments.a, arguments.b,
              tolerance > 0 ? fmt::format(" within {:g}", tolerance) : " to the last bit");
   return execute::kCheckFailed;

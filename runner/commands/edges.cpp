@@ -32,14 +32,23 @@ std::string broken(const study::Study& study, const store::FinishedCase& run) {
   return "";
 }
 
-present::EdgeProbe probe_of(const study::Study& study, const study::Case& one, const std::filesystem::path& root) {
+/// Whether what a run came to is what today's numerics would have come to, as a plan would say it.
+bool counts(const store::Manifest& manifest, const study::Case& one, const execute::Equivalences& equivalences) {
+  const store::RunHeader& header = manifest.header;
+  if (execute::are_of_today(header.numerics, one.scene)) return true;
+  return manifest.result.outcome == simulation::Outcome::completed &&
+         execute::declared(equivalences, header.kind, header.numerics, execute::todays_numerics(one.scene)) != nullptr;
+}
+
+present::EdgeProbe probe_of(const study::Study& study, const study::Case& one, const std::filesystem::path& root,
+                            const execute::Equivalences& equivalences) {
   present::EdgeProbe probe;
   probe.value = one.probe.value();
   const auto folder = store::newest_run(root, one.id);
   if (folder.empty()) return probe;
   const store::FinishedCase run{store::read_manifest(folder), {}};
-  // What older numerics came to says nothing of today's.
-  if (!execute::are_of_today(run.manifest.header.numerics, one.scene)) return probe;
+  // What other numerics came to says nothing of today's, unless a probe has shown that it does.
+  if (!counts(run.manifest, one, equivalences)) return probe;
   const simulation::RunResult& result = run.manifest.result;
   probe.finished = result.outcome != simulation::Outcome::stopped;
   if (result.outcome == simulation::Outcome::completed) probe.tripped = broken(study, run);
@@ -69,6 +78,7 @@ std::vector<double>& at(std::vector<std::vector<double>>& probes, std::size_t co
 
 std::vector<present::EdgeSearch> edge_searches(const study::Study& study, const std::filesystem::path& root) {
   const study::Edge& edge = study.edge.value();
+  const execute::Equivalences equivalences = execute::declared_equivalences(root);
   std::vector<present::EdgeSearch> searches;
   const std::string path = study::join_path(edge.path);
   for (const study::Case& one : study.cases) {
@@ -84,7 +94,7 @@ std::vector<present::EdgeSearch> edge_searches(const study::Study& study, const 
                                                                   edge.node->kind == study::SchemaNode::Kind::integer,
                                                                   {}});
     }
-    found->probes.push_back(probe_of(study, one, root));
+    found->probes.push_back(probe_of(study, one, root, equivalences));
   }
   return searches;
 }

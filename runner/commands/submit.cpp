@@ -79,7 +79,9 @@ int submit(SubmitArguments arguments) {
 
   const auto study = next_round(arguments);
   const auto disk = [&](const std::string& id) { return execute::read_history(options.root, id); };
-  const execute::Plan plan = study ? execute::make_plan(*study, execute::todays_numerics, disk) : execute::Plan{};
+  const auto equivalences = execute::declared_equivalences(options.root);
+  const execute::Plan plan =
+      study ? execute::make_plan(*study, execute::todays_numerics, disk, equivalences) : execute::Plan{};
   if (std::ranges::all_of(plan.tasks,
                           [](const auto& task) { return task.decision.action == execute::Action::fresh; })) {
     fmt::print(stderr, "nothing to submit: every case is fresh\n");

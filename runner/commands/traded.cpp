@@ -54,9 +54,17 @@ present::VariantRun run_of(const study::FrozenRun& run, const std::vector<std::s
   return {"", values_of(run.metrics, asked), "", run.cpu_seconds, run.peak_memory_mb, run.steps};
 }
 
-/// Whether a reference was frozen with what a scene's numerics are today: its note ends with them.
-bool is_of_today(const study::Frozen& frozen, const scene::SceneSpec& scene) {
-  return frozen.made_with.ends_with(", " + numerics_text(execute::todays_numerics(scene)));
+/// Whether a reference was frozen with what a scene's numerics are today, or with some that are declared equivalent:
+/// its note ends with them.
+bool is_of_today(const study::Frozen& frozen, const scene::SceneSpec& scene,
+                 const execute::Equivalences& equivalences) {
+  const auto today = execute::todays_numerics(scene);
+  const auto was_made_with = [&](const auto& numerics) {
+    return frozen.made_with.ends_with(", " + numerics_text(numerics));
+  };
+  return was_made_with(today) || std::ranges::any_of(equivalences, [&](const store::Equivalence& one) {
+           return is_about(one, execute::name(execute::kind_of(scene)), one.before, today) && was_made_with(one.before);
+         });
 }
 
 /// Why there is no result, as briefly as that many runs can share it.
@@ -74,6 +82,7 @@ namespace {
 /// With a frozen reference, or with the store's where it is null.
 Traded traded(const study::Study& study, const std::filesystem::path& root, const study::Frozen* frozen) {
   Traded all;
+  const execute::Equivalences equivalences = execute::declared_equivalences(root);
   std::vector<present::TradedGroup>& groups = all.groups;
   const std::vector<std::string>& asked = study.trade->metrics;
   std::set<std::string> known;
@@ -105,7 +114,7 @@ Traded traded(const study::Study& study, const std::filesystem::path& root, cons
     }
     if (kept) {
       run = run_of(*kept, asked);
-      if (!is_of_today(*frozen, one.scene)) ++aged;
+      if (!is_of_today(*frozen, one.scene, equivalences)) ++aged;
       if (result && hash_of(*result) != kept->state_hash) ++others;
     } else if (result) {
       run = run_of(*result, asked);

@@ -5,6 +5,7 @@
 
 #include "runner/commands/command.h"
 #include "runner/execute/exit_codes.h"
+#include "runner/store/equivalence.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::commands {
@@ -51,7 +52,10 @@ int verify(const VerifyArguments& arguments) {
     return execute::kNothingMatched;
   }
   fmt::print(stderr, "{} of {} runs verified\n", runs - damaged, runs);
-  return damaged == 0 ? execute::kDone : execute::kCheckFailed;
+  // Declarations of equivalence are of no single case.
+  const auto declarations = arguments.id.empty() ? store::read_equivalences(arguments.root) : store::Equivalences();
+  for (const std::string& sentence : declarations.left_out) fmt::print("{}\n", sentence);
+  return damaged == 0 && declarations.left_out.empty() ? execute::kDone : execute::kCheckFailed;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/history.h"
@@ -37,6 +38,12 @@ double memory_of(const fs::path& root, const std::string& case_id) {
 
 }  // namespace
 
+Sharing on_this_machine(Sharing sharing) {
+  sharing.cores = usable_cores();
+  if (!sharing.memory_mb) sharing.memory_mb = kShareOfMemory * available_memory_mb();
+  return sharing;
+}
+
 store::StudyEntry entry_of(const study::Study& study) {
   store::StudyEntry entry{study.name, study.question, study.file_sha256, {}};
   for (const study::Case& c : study.cases) entry.cases.emplace_back(c.id, c.labels);
@@ -47,18 +54,27 @@ std::vector<simulation::NumericsVersion> todays_numerics(const scene::SceneSpec&
   return simulation::numerics_versions(scene);
 }
 
+Equivalences declared_equivalences(const fs::path& root) {
+  static std::set<std::string> told;
+  store::Equivalences found = store::read_equivalences(root);
+  for (const std::string& sentence : found.left_out) {
+    if (told.insert(sentence).second) fmt::print(stderr, "{}; it declares nothing\n", sentence);
+  }
+  return std::move(found.declared);
+}
+
 bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene) {
-  const std::vector<simulation::NumericsVersion> today = todays_numerics(scene);
-  return std::ranges::is_permutation(versions, today, [](const auto& one, const auto& other) {
-    return one.module == other.module && one.version == other.version;
-  });
+  return store::same_numerics(versions, todays_numerics(scene));
 }
 
 Campaign::Campaign(const study::Study& study, CampaignOptions options)
-    : study_(study), options_(std::move(options)), numerics_(todays_numerics) {
-  options_.sharing.cores = usable_cores();
-  if (!options_.sharing.memory_mb) options_.sharing.memory_mb = kShareOfMemory * available_memory_mb();
-  plan_ = make_plan(study_, numerics_, [this](const std::string& id) { return read_history(options_.root, id); });
+    : study_(study),
+      options_(std::move(options)),
+      numerics_(todays_numerics),
+      equivalences_(declared_equivalences(options_.root)) {
+  options_.sharing = on_this_machine(options_.sharing);
+  const Disk disk = [this](const std::string& id) { return read_history(options_.root, id); };
+  plan_ = make_plan(study_, numerics_, disk, equivalences_);
 }
 
 int Campaign::carry_out() {
@@ -75,7 +91,7 @@ int Campaign::carry_out() {
     };
     const StoreView store = {[this](const std::string& id) { return read_history(options_.root, id); },
                              [this](const std::string& id) { return is_claimed(options_.root, id); },
-                             [this](const std::string& id) { return memory_of(options_.root, id); }};
+                             [this](const std::string& id) { return memory_of(options_.root, id); }, equivalences_};
     const Prices prices = prices_of(study_, plan_, options_.root);
     for (std::size_t i = 0; i < prices.size(); ++i) {
       if (prices[i]) plan_.tasks[i].memory_mb = prices[i]->memory_mb;

@@ -29,11 +29,18 @@ struct CaseOutcome {
   std::filesystem::path bed_folder;  ///< the sealed run of its bed; empty when there is none
 };
 
+/// The wishes of a user with what this machine has: its cores and, where nothing else was wished, most of its memory.
+Sharing on_this_machine(Sharing sharing);
+
 /// What the catalogue knows of a study.
 store::StudyEntry entry_of(const study::Study& study);
 
 /// The numerics that a scene is computed with today.
 std::vector<simulation::NumericsVersion> todays_numerics(const scene::SceneSpec& scene);
+
+/// What a store declares equivalent, for everybody who decides what is fresh. A declaration that does not hold counts
+/// for nothing and is named on standard error, once by a process.
+Equivalences declared_equivalences(const std::filesystem::path& root);
 
 /// Whether versions are today's of a scene.
 bool are_of_today(const std::vector<simulation::NumericsVersion>& versions, const scene::SceneSpec& scene);
@@ -66,6 +73,7 @@ class Campaign {
   const study::Study& study_;
   CampaignOptions options_;
   Numerics numerics_;
+  Equivalences equivalences_;
   Plan plan_;
   Summary summary_;
   std::string ingest_trouble_;  ///< the first; the results are safe in their folders all the same

@@ -257,10 +257,10 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
     return kClaimHeld;
   }
   // Decided under the claim: another runner may have finished the case since the plan was made.
-  const Asked asked{simulation::numerics_versions(request.scene), record_of_runs(request.record, request.scene),
-                    request.bed_run};
+  const Asked asked{request.kind, simulation::numerics_versions(request.scene),
+                    record_of_runs(request.record, request.scene), request.bed_run};
   const History history = read_history(request.root, request.case_id);
-  const Decision decision = decide(asked, history);
+  const Decision decision = decide(asked, history, store::read_equivalences(request.root).declared);
   if (decision.action == Action::fresh) return kDone;
   if (const auto why = diverged_since(request.newest, asked, history)) {
     tell(Trouble{*why});
@@ -273,9 +273,9 @@ int run_claimed(const Request& request, const std::function<void(const Message&)
 /// Why the bed that a drive is to be built on cannot be used, or "" once `bed_run` names its newest run: a batch system
 /// is asked for the drive before there is one.
 std::string find_bed(Request& request) {
-  const Asked asked{simulation::numerics_versions(bed_alone(request.scene)), std::nullopt, ""};
+  const Asked asked{name(Kind::bed), simulation::numerics_versions(bed_alone(request.scene)), std::nullopt, ""};
   const History history = read_history(request.root, request.bed_id);
-  const Decision decision = decide(asked, history);
+  const Decision decision = decide(asked, history, store::read_equivalences(request.root).declared);
   request.bed_run = decision.run;
   if (decision.action == Action::fresh) return "";
   return fmt::format("its bed {} cannot be had: {}", short_id(request.bed_id), decision.reason);

@@ -15,27 +15,10 @@ namespace {
 using simulation::NumericsVersion;
 using simulation::Outcome;
 
-std::optional<int> version_of(const std::vector<NumericsVersion>& versions, const std::string& module) {
-  const auto found = std::ranges::find(versions, module, &NumericsVersion::module);
-  return found == versions.end() ? std::nullopt : std::optional(found->version);
-}
-
-std::string in_words(std::optional<int> version) { return version ? fmt::format("{}", *version) : "none"; }
-
 /// "numerics of grains 1 -> 2", for every module that moved; empty when none did.
 std::string moved_numerics(const std::vector<NumericsVersion>& before, const std::vector<NumericsVersion>& now) {
-  std::vector<std::string> moved;
-  const auto compare = [&](const std::string& module) {
-    const auto old_version = version_of(before, module), new_version = version_of(now, module);
-    if (old_version != new_version) {
-      moved.push_back(fmt::format("{} {} -> {}", module, in_words(old_version), in_words(new_version)));
-    }
-  };
-  for (const NumericsVersion& version : now) compare(version.module);
-  for (const NumericsVersion& version : before) {
-    if (!version_of(now, version.module)) compare(version.module);
-  }
-  return moved.empty() ? "" : fmt::format("numerics of {}", fmt::join(moved, ", "));
+  const std::string moved = store::moved_text(before, now);
+  return moved.empty() ? "" : "numerics of " + moved;
 }
 
 std::string listed(const std::vector<NumericsVersion>& versions) {
@@ -46,14 +29,22 @@ std::string listed(const std::vector<NumericsVersion>& versions) {
 }
 
 /// Why a past run cannot stand for the case; empty when it can.
-std::string staleness(const Asked& asked, const PastRun& past) {
+std::string staleness(const Asked& asked, const PastRun& past, const Equivalences& equivalences) {
   if (!past.damage.empty()) return past.damage;
   if (past.outcome == Outcome::diverged) return fmt::format("last run diverged: {}", past.reason);
   if (past.outcome == Outcome::stopped) return fmt::format("last run stopped: {}", past.reason);
-  if (const auto moved = moved_numerics(past.numerics, asked.numerics); !moved.empty()) return moved;
+  const std::string moved = moved_numerics(past.numerics, asked.numerics);
+  if (!moved.empty() && !declared(equivalences, asked.kind, past.numerics, asked.numerics)) return moved;
   if (past.bed_run != asked.bed_run) return fmt::format("bed newly computed (run {})", asked.bed_run);
   if (!asked.record) return "";
   return past.record ? lacking(*past.record, *asked.record) : "nothing recorded";
+}
+
+/// Why a past run that is not stale can stand for the case.
+std::string freshness(const Asked& asked, const PastRun& past, const Equivalences& equivalences) {
+  if (moved_numerics(past.numerics, asked.numerics).empty())
+    return fmt::format("completed with today's numerics ({})", listed(asked.numerics));
+  return "equivalent: " + in_words(*declared(equivalences, asked.kind, past.numerics, asked.numerics));
 }
 
 bool continues(const Asked& asked, const InterruptedRun& run) {
@@ -83,6 +74,11 @@ const char* name(Action action) {
 const char* name(Kind kind) {
   static constexpr const char* kNames[] = {"bed", "drive", "flow"};
   return kNames[static_cast<int>(kind)];
+}
+
+Kind kind_of(const scene::SceneSpec& scene) {
+  if (is_water(scene)) return Kind::flow;
+  return scene.pile ? Kind::drive : Kind::bed;
 }
 
 std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want) {
@@ -115,14 +111,18 @@ std::optional<scene::RecordSpec> record_of_runs(const scene::RecordSpec& record,
   return study::record_of(record, scene);
 }
 
-Decision decide(const Asked& asked, const History& history) {
+const store::Equivalence* declared(const Equivalences& equivalences, const std::string& kind,
+                                   const store::NumericsList& before, const store::NumericsList& now) {
+  const auto found = std::ranges::find_if(
+      equivalences, [&](const store::Equivalence& one) { return is_about(one, kind, before, now); });
+  return found == equivalences.end() ? nullptr : &*found;
+}
+
+Decision decide(const Asked& asked, const History& history, const Equivalences& equivalences) {
   std::string reason = "never run";
   if (history.past) {
-    reason = staleness(asked, *history.past);
-    if (reason.empty()) {
-      return {Action::fresh, fmt::format("completed with today's numerics ({})", listed(asked.numerics)),
-              history.past->run};
-    }
+    reason = staleness(asked, *history.past, equivalences);
+    if (reason.empty()) return {Action::fresh, freshness(asked, *history.past, equivalences), history.past->run};
   }
   if (history.interrupted) {
     const InterruptedRun& interrupted = *history.interrupted;
@@ -142,7 +142,16 @@ Decision decide(const Asked& asked, const History& history) {
   return {Action::run, reason, ""};
 }
 
-Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& disk) {
+std::optional<Outdated> outdated(const Asked& asked, const History& history, const Equivalences& equivalences) {
+  if (!history.past || staleness(asked, *history.past, equivalences).empty()) return {};
+  Asked as_it_was = asked;
+  as_it_was.numerics = history.past->numerics;
+  if (!staleness(as_it_was, *history.past, equivalences).empty()) return {};
+  return Outdated{history.past->numerics, asked.numerics};
+}
+
+Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& disk,
+               const Equivalences& equivalences) {
   Plan plan;
   struct BedState {
     std::size_t task;
@@ -159,10 +168,12 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     auto [bed, inserted] = beds.try_emplace(c.bed_id, BedState{plan.tasks.size(), {}, is_bed});
     bed->second.needed |= is_bed;
     if (!inserted) continue;
-    bed->second.history = disk(c.bed_id);
+    const History& history = bed->second.history = disk(c.bed_id);
+    const Asked asked{name(Kind::bed), numerics(bed_alone(c.scene)), std::nullopt, ""};
     plan.tasks.push_back({Kind::bed, c.bed_id, i, std::nullopt, "bed " + short_id(c.bed_id), most_threads(c.scene),
-                          decide({numerics(bed_alone(c.scene)), std::nullopt, ""}, bed->second.history)});
-    plan.tasks.back().newest = newest_of(bed->second.history);
+                          decide(asked, history, equivalences)});
+    plan.tasks.back().newest = newest_of(history);
+    plan.tasks.back().outdated = outdated(asked, history, equivalences);
   }
   // A drive by itself: a bed that has been run again since, or is lost, does not count yet.
   std::vector<History> histories(study.cases.size());
@@ -170,21 +181,26 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     const study::Case& c = study.cases[i];
     if (c.id == c.bed_id) continue;
     histories[i] = disk(c.id);
-    const std::string labels = label_line(c.labels), name = labels.empty() ? "case " + short_id(c.id) : labels;
-    Asked asked{numerics(c.scene), record_of_runs(study.record, c.scene), ""};
-    if (is_water(c.scene)) {
-      plan.tasks.push_back({Kind::flow, c.id, i, std::nullopt, name, 1, decide(asked, histories[i])});
+    const std::string labels = label_line(c.labels), title = labels.empty() ? "case " + short_id(c.id) : labels;
+    const Kind kind = kind_of(c.scene);
+    Asked asked{name(kind), numerics(c.scene), record_of_runs(study.record, c.scene), ""};
+    if (kind == Kind::flow) {
+      plan.tasks.push_back({kind, c.id, i, std::nullopt, title, 1, decide(asked, histories[i], equivalences)});
       plan.tasks.back().newest = newest_of(histories[i]);
+      plan.tasks.back().outdated = outdated(asked, histories[i], equivalences);
       continue;
     }
     BedState& bed = beds.at(c.bed_id);
     const Decision& of_bed = plan.tasks[bed.task].decision;
     asked.bed_run = of_bed.run;
     if (of_bed.action != Action::fresh) asked.bed_run = histories[i].past ? histories[i].past->bed_run : "";
-    const Decision decision = decide(asked, histories[i]);
+    const Decision decision = decide(asked, histories[i], equivalences);
     bed.needed |= decision.action != Action::fresh;
-    plan.tasks.push_back({Kind::drive, c.id, i, bed.task, name, most_threads(c.scene), decision});
+    // A bed that is outdated itself would count again, once it is declared equivalent.
+    if (plan.tasks[bed.task].outdated) asked.bed_run = newest_of(bed.history);
+    plan.tasks.push_back({kind, c.id, i, bed.task, title, most_threads(c.scene), decision});
     plan.tasks.back().newest = newest_of(histories[i]);
+    plan.tasks.back().outdated = outdated(asked, histories[i], equivalences);
   }
   // A bed that is run for one drive is new to all that are built on it.
   for (Task& task : plan.tasks) {
@@ -195,7 +211,8 @@ Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& 
     if (!bed.needed || of_bed.action == Action::fresh) continue;
     const std::string run = run_to_come(bed.history, of_bed);
     const bool was_fresh = task.decision.action == Action::fresh;
-    task.decision = decide({numerics(c.scene), record_of_runs(study.record, c.scene), run}, histories[task.study_case]);
+    const Asked asked{name(Kind::drive), numerics(c.scene), record_of_runs(study.record, c.scene), run};
+    task.decision = decide(asked, histories[task.study_case], equivalences);
     if (was_fresh && task.decision.action != Action::fresh) task.decision.reason = "bed newly computed";
   }
   // Lost or outdated beds of fresh drives are nobody's concern.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runner/store/equivalence.h"
 #include "runner/study/study.h"
 #include "solver/scene/spec.h"
 #include "solver/simulation/run.h"
@@ -45,6 +46,7 @@ using Disk = std::function<History(const std::string& case_id)>;
 
 /// What a run must have been made with to be used again.
 struct Asked {
+  std::string kind;  ///< "bed", "drive" or "flow"
   std::vector<simulation::NumericsVersion> numerics;
   std::optional<scene::RecordSpec> record;  ///< absent where runs of the scene are not recorded
   std::string bed_run;                      ///< the bed's newest run; "" without a bed
@@ -62,8 +64,23 @@ struct Decision {
   std::string run;     ///< the run that is fresh, resumed, or begun again; "" for a new one
 };
 
-/// What to do about one case.
-Decision decide(const Asked& asked, const History& history);
+/// Declarations that runs of older numerics are as good as today's; they come from store::read_equivalences().
+using Equivalences = std::vector<store::Equivalence>;
+
+/// The declaration that lets runs of a kind with these numerics stand for today's; null: none. It has to be of the same
+/// kind and of the same two lists as a whole, and chains of declarations are not joined.
+const store::Equivalence* declared(const Equivalences& equivalences, const std::string& kind,
+                                   const store::NumericsList& before, const store::NumericsList& now);
+
+/// What to do about one case. A completed run whose numerics moved is fresh where they are declared equivalent; an
+/// interrupted one goes on with the numerics that it was begun with alone, and a diverged one is run again.
+Decision decide(const Asked& asked, const History& history, const Equivalences& equivalences);
+
+/// The lists of numerics before and now of a completed run which they alone keep from being fresh.
+struct Outdated {
+  store::NumericsList before, now;
+};
+std::optional<Outdated> outdated(const Asked& asked, const History& history, const Equivalences& equivalences);
 
 /// Why the case diverged with what is asked for, after `newest` was its newest run: somebody else has tried it
 /// meanwhile, and it would diverge again. Absent when it did not.
@@ -74,6 +91,7 @@ std::string lacking(const scene::RecordSpec& have, const scene::RecordSpec& want
 
 enum class Kind { bed, drive, flow };
 const char* name(Kind kind);  ///< "bed", "drive" or "flow", as requests and manifests have it
+Kind kind_of(const scene::SceneSpec& scene);
 
 /// One case to be considered: a bed, a drive that is built on one, or a flow of water alone.
 struct Task {
@@ -84,8 +102,9 @@ struct Task {
   std::string name;                ///< short and for people: "bed 3f2a90c1d4" or "pile.tip=flat"
   int most_threads = 1;            ///< with more its threads would mostly wait for each other
   Decision decision;
-  std::string newest = {};               ///< its newest sealed run when it was planned; "": none
-  std::optional<double> memory_mb = {};  ///< that it is thought to need [MB]; absent: no history
+  std::string newest = {};                ///< its newest sealed run when it was planned; "": none
+  std::optional<double> memory_mb = {};   ///< that it is thought to need [MB]; absent: no history
+  std::optional<Outdated> outdated = {};  ///< its newest run could stand for it but for these
 };
 
 /// Grains that keep one thread busy: below it a second one makes a case slower, on a busy machine by orders of
@@ -103,7 +122,7 @@ scene::SceneSpec bed_alone(const scene::SceneSpec& scene);
 using Numerics = std::function<std::vector<simulation::NumericsVersion>(const scene::SceneSpec&)>;
 
 /// Decides about every case of the study. Beds that nothing needs any more are left out.
-Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& disk);
+Plan make_plan(const study::Study& study, const Numerics& numerics, const Disk& disk, const Equivalences& equivalences);
 
 /// The plan for people, one line per case; many cases with the same reason share a line.
 std::vector<std::string> describe(const Plan& plan);

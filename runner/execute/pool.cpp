@@ -77,14 +77,14 @@ class Pool {
     Task& task = plan_.tasks[i];
     const study::Case& of_study = study_.cases[task.study_case];
     const bool is_bed = task.kind == Kind::bed;
-    Asked asked{numerics_(is_bed ? bed_alone(of_study.scene) : of_study.scene), std::nullopt, ""};
+    Asked asked{name(task.kind), numerics_(is_bed ? bed_alone(of_study.scene) : of_study.scene), std::nullopt, ""};
     if (!is_bed) asked.record = record_of_runs(study_.record, of_study.scene);
     if (task.kind == Kind::drive) {
       const History bed = store_.disk(of_study.bed_id);
       asked.bed_run = bed.past ? bed.past->run : "";
     }
     const History history = store_.disk(task.id);
-    task.decision = decide(asked, history);
+    task.decision = decide(asked, history, store_.equivalences);
     if (task.decision.action == Action::fresh) {
       change(i, State::completed, "by another process");
     } else if (const auto why = diverged_since(task.newest, asked, history)) {

@@ -94,6 +94,7 @@ struct StoreView {
   std::function<bool(const std::string& case_id)> claimed;  ///< by a live process
   /// Peak memory [MB] of a case's newest run; may be empty where nothing is known.
   std::function<double(const std::string& case_id)> memory_mb = {};
+  Equivalences equivalences = {};  ///< those that the plan was made with
 };
 
 struct Summary {

@@ -139,7 +139,9 @@ bool is_held(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
 }
 
-std::vector<SeriesDistance> series_distances(const FinishedRun& a, const FinishedRun& b) {
+/// `uncompared` receives the columns that one of them lacks, or that are no numbers over what both cover.
+std::vector<SeriesDistance> series_distances(const FinishedRun& a, const FinishedRun& b,
+                                             std::vector<std::string>& uncompared) {
   const std::string& kind = a.manifest.header.kind;
   if (kind != b.manifest.header.kind) return {};
   const Compared compared = compared_of(kind);
@@ -151,13 +153,21 @@ std::vector<SeriesDistance> series_distances(const FinishedRun& a, const Finishe
   const auto of_a = read(a), of_b = read(b);
   std::size_t over = 0;
   while (over < compared.over.size() && !(rises(of_a[over]) && rises(of_b[over]))) ++over;
-  if (over == compared.over.size()) return {};
+  if (over == compared.over.size()) {
+    uncompared = compared.over;
+    return {};
+  }
   std::vector<SeriesDistance> all;
   for (std::size_t i = compared.over.size(); i < names.size(); ++i) {
-    if (!is_held(of_a[i]) || !is_held(of_b[i])) continue;
-    if (const auto found = distance({of_a[over], of_a[i]}, {of_b[over], of_b[i]}))
+    const bool held_by_a = is_held(of_a[i]), held_by_b = is_held(of_b[i]);
+    if (!held_by_a && !held_by_b) continue;
+    const auto found = held_by_a && held_by_b ? distance({of_a[over], of_a[i]}, {of_b[over], of_b[i]}) : std::nullopt;
+    if (found) {
       all.push_back(
           {names[i], unit_of(compared.series, names[i]), names[over], unit_of(compared.series, names[over]), *found});
+    } else {
+      uncompared.push_back(names[i]);
+    }
   }
   return all;
 }
@@ -199,7 +209,7 @@ RunComparison compare(const FinishedRun& a, const FinishedRun& b) {
   result.environment =
       differences(environment_values(a.manifest.provenance), environment_values(b.manifest.provenance));
   result.metrics = metric_distances(a.manifest.result, b.manifest.result);
-  result.curves = series_distances(a, b);
+  result.curves = series_distances(a, b, result.uncompared);
 
   if (of_a.kind != of_b.kind) result.differ_alone.push_back(fmt::format("a {} and a {}", of_a.kind, of_b.kind));
   if (a.manifest.result.outcome != b.manifest.result.outcome)
@@ -234,6 +244,20 @@ RunComparison compare(const FinishedRun& a, const FinishedRun& b) {
 
 bool are_packings(const RunComparison& comparison) {
   return comparison.parameters.size() == 1 && comparison.parameters.front().name == "bed.seed";
+}
+
+std::string inequality(const RunComparison& comparison, double tolerance) {
+  if (!comparison.differ_alone.empty()) return fmt::format("{}", fmt::join(comparison.differ_alone, "; "));
+  if (comparison.metrics.empty() && comparison.curves.empty()) return "they have nothing that could be compared";
+  for (const MetricDistance& metric : comparison.metrics) {
+    if (std::isnan(metric.relative)) return fmt::format("{} is a number in one alone", metric.name);
+  }
+  if (!comparison.uncompared.empty())
+    return fmt::format("{} cannot be compared over what both cover", comparison.uncompared.front());
+  if (comparison.likeness == Likeness::identical) return "";
+  if (tolerance > 0 && comparison.largest <= tolerance) return "";
+  if (comparison.largest == 0) return "their final states differ";
+  return fmt::format("{} differs by {:.3g}", comparison.largest_of, comparison.largest);
 }
 
 std::string explanation(const RunComparison& comparison) {

@@ -58,6 +58,7 @@ struct RunComparison {
   double largest = 0;                     ///< relative distance of the metrics and curves that both have
   std::string largest_of;                 ///< the metric or column
   std::size_t unshared = 0;               ///< metrics that only one of them has as a number
+  std::vector<std::string> uncompared;    ///< columns that only one of them has, or that have no distance
   Likeness likeness = Likeness::different;
 };
 
@@ -66,6 +67,10 @@ RunComparison compare(const FinishedRun& a, const FinishedRun& b);
 
 /// Whether both are packings of one scene: nothing that was asked differs but the seed.
 bool are_packings(const RunComparison& comparison);
+
+/// Why two runs cannot be taken for equal within a tolerance (0: to the last bit), in a clause; empty when they can.
+/// What one of them lacks makes them unequal, and so does that there is nothing to compare.
+std::string inequality(const RunComparison& comparison, double tolerance);
 
 /// "other parameters (pile.tip), other numerics (grains 3 -> 4)"; "nothing known" when all that is known is the same.
 std::string explanation(const RunComparison& comparison);

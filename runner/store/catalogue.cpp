@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "runner/store/database.h"
+#include "runner/store/equivalence.h"
 #include "runner/store/ingest.h"
 #include "runner/store/layout.h"
 #include "runner/store/query.h"
@@ -176,8 +177,15 @@ Ingested Catalogue::ingest_all(const std::vector<Path>& folders) {
   return ingested;
 }
 
+std::vector<std::string> Catalogue::refresh_equivalences() {
+  Equivalences equivalences = read_equivalences(impl_->root);
+  impl_->transact([&](SQLite::Database& sqlite) { ingest_equivalences(sqlite, equivalences.declared); });
+  return std::move(equivalences.left_out);
+}
+
 Ingested Catalogue::ingest_missing() {
   Ingested ingested;
+  ingested.left_out = refresh_equivalences();
   const std::vector<StudyEntry> studies = read_studies(impl_->root);
   impl_->transact([&](SQLite::Database& sqlite) {
     SQLite::Statement same_study(sqlite, "SELECT 1 FROM study WHERE name = ? AND file_sha256 = ?");
@@ -206,8 +214,11 @@ std::vector<Path> Catalogue::missing() const {
 std::size_t Catalogue::rebuild(std::vector<std::string>* left_out) {
   Ingested ingested;
   const std::vector<StudyEntry> studies = read_studies(impl_->root);
+  Equivalences equivalences = read_equivalences(impl_->root);
+  ingested.left_out = std::move(equivalences.left_out);
   impl_->transact([&](SQLite::Database& sqlite) {
     sqlite.exec("DELETE FROM run; DELETE FROM kase; DELETE FROM study;");
+    ingest_equivalences(sqlite, equivalences.declared);
     for (const StudyEntry& study : studies) ingest_study(sqlite, study);
     impl_->ingest(sqlite, run_folders(impl_->root), ingested);
   });

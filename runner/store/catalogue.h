@@ -54,7 +54,7 @@ struct Ingested {
   std::size_t added = 0;              ///< runs that were not listed, or otherwise
   std::size_t known = 0;              ///< runs that were listed as they are
   std::size_t studies = 0;            ///< studies likewise added
-  std::vector<std::string> left_out;  ///< a sentence for each folder whose manifest or files do not hold
+  std::vector<std::string> left_out;  ///< a sentence for each folder or declaration that does not hold
 };
 
 /// What a name of a query stands for.
@@ -90,13 +90,19 @@ class Catalogue {
   /// Ingests every complete run in a folder below the root (a run's, a case's, or one that holds several) in one
   /// transaction. Throws std::invalid_argument when a folder lies elsewhere.
   Ingested ingest_all(const std::vector<std::filesystem::path>& folders);
-  /// The same of every run and study below the root that is not listed; what is listed is not read again.
+  /// The same of every run and study below the root that is not listed; what is listed is not read again. The
+  /// declarations are those of the store now.
   Ingested ingest_missing();
   /// The complete run folders below the root that are not listed.
   std::vector<std::filesystem::path> missing() const;
 
-  /// Forgets everything and ingests every study and every complete run folder below the root, in one transaction.
-  /// Returns how many runs; `left_out` receives a sentence for each folder whose manifest or files do not hold.
+  /// Takes the declarations of equivalence as they are in the store now (equivalence.h). A sentence for each that does
+  /// not hold.
+  std::vector<std::string> refresh_equivalences();
+
+  /// Forgets everything and ingests every study, every declaration and every complete run folder below the root, in one
+  /// transaction. Returns how many runs; `left_out` receives a sentence for each folder or declaration that does not
+  /// hold.
   std::size_t rebuild(std::vector<std::string>* left_out = nullptr);
 
   /// The runs of a study (all when ""), newest run of each case, one row each. Columns: "case" (10 hex digits), "run",

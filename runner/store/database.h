@@ -14,7 +14,7 @@
 namespace seapile::store {
 
 inline constexpr const char* kCatalogueFile = "catalogue.sqlite";
-inline constexpr int kCatalogueVersion = 2;  ///< user_version in results_schema/catalogue.sql
+inline constexpr int kCatalogueVersion = 3;  ///< user_version in results_schema/catalogue.sql
 
 /// A catalogue of an older schema, which has to be migrated first.
 struct OlderSchema : StoreError {

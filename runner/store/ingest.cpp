@@ -181,6 +181,16 @@ bool ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manif
   return true;
 }
 
+void ingest_equivalences(SQLite::Database& sqlite, const std::vector<Equivalence>& declared) {
+  sqlite.exec("DELETE FROM equivalence");
+  Insertion equivalence(sqlite, "equivalence", 17);
+  for (const Equivalence& one : declared) {
+    equivalence(one.kind, numerics_json(one.before), numerics_json(one.now), one.case_id, whole(run_number(one.run)),
+                one.state_before, one.state_now, one.likeness, one.largest, one.largest_of, one.tolerance, one.date,
+                one.version, one.commit, whole(one.dirty), one.file, one.seal);
+  }
+}
+
 void ingest_study(SQLite::Database& sqlite, const StudyEntry& study) {
   SQLite::Statement forget(sqlite, "DELETE FROM study WHERE name = ?");
   forget.bind(1, study.name);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runner/store/catalogue.h"
+#include "runner/store/equivalence.h"
 #include "runner/store/run_folder.h"
 
 namespace seapile::store {
@@ -18,6 +19,9 @@ bool ingest_run(SQLite::Database& sqlite, const std::string& folder, const Manif
 
 /// Puts what a run's manifest says of the parts in the place of the rows that the run had.
 void put_parts(SQLite::Database& sqlite, std::int64_t run_id, const std::vector<simulation::Part>& parts);
+
+/// Puts the declarations of a store in the place of all that were listed, within the caller's transaction.
+void ingest_equivalences(SQLite::Database& sqlite, const std::vector<Equivalence>& declared);
 
 /// Puts a study's rows in the place of those that it had, within the caller's transaction.
 void ingest_study(SQLite::Database& sqlite, const StudyEntry& study);

@@ -8,6 +8,7 @@
 
 #include "runner/store/catalogue_sql.h"
 #include "runner/store/database.h"
+#include "runner/store/equivalence.h"
 #include "runner/store/ingest.h"
 
 namespace seapile::store {
@@ -41,6 +42,12 @@ void read_parts_again(SQLite::Database& sqlite, const Path& root, Texts& left_ou
       "DELETE FROM kase WHERE case_id NOT IN (SELECT case_id FROM run)");
 }
 
+void read_declarations(SQLite::Database& sqlite, const Path& root, Texts& left_out) {
+  const Equivalences equivalences = read_equivalences(root);
+  ingest_equivalences(sqlite, equivalences.declared);
+  left_out.insert(left_out.end(), equivalences.left_out.begin(), equivalences.left_out.end());
+}
+
 /// From the version before to this one.
 struct Step {
   int version;
@@ -54,6 +61,7 @@ constexpr std::array kSteps = {
          "marks the newest run of each case, adds the sizes of runs, what decided about the parts of the model, two "
          "views and indexes",
          kMigrationTo2Sql, read_parts_again},
+    Step{3, "adds the declarations that older numerics are equivalent", kMigrationTo3Sql, read_declarations},
 };
 static_assert(kSteps.back().version == kCatalogueVersion);
 

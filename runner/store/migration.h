@@ -11,7 +11,7 @@ struct Migration {
   int from = 0, to = 0;               ///< versions of the schema; equal: there is nothing to do
   std::vector<std::string> steps;     ///< what each does, a clause
   std::filesystem::path kept;         ///< copy of the catalogue as it was; empty: none was made
-  std::vector<std::string> left_out;  ///< a sentence for each run that was listed and whose manifest does not hold
+  std::vector<std::string> left_out;  ///< a sentence for each run that was listed, or declaration, that does not hold
 };
 
 /// What migrate() would do; writes nothing. Throws StoreError, also when there is no catalogue.

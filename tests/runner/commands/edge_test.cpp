@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
+#include "runner/store/manifest.h"
 #include "tests/runner/commands/program.h"
 
 namespace seapile::commands {
@@ -45,6 +47,17 @@ TEST(EdgeStudy, EndsBetweenWhatHoldsAndWhatDoesNotAndTriesNothingTwice) {
   EXPECT_EQ(runs_in(place), runs) << "what diverged is a result";
   // All that was tried belongs to the study.
   EXPECT_THAT(place.run({"query", "edge"}).out, HasSubstr("galerkin"));
+
+  // Numerics that moved ask for all of it again, unless a probe has declared them equivalent.
+  for (const auto& one : fs::directory_iterator(place.results() / "cases")) {
+    store::Manifest manifest = store::read_manifest(one.path() / "0001");
+    --manifest.header.numerics.at(0).version;
+    std::ofstream(one.path() / "0001" / "manifest.json") << store::manifest_text(manifest);
+  }
+  EXPECT_THAT(place.run({"edge.json", "--dry-run"}).error, HasSubstr("numerics of mesh"));
+  EXPECT_EQ(place.run({"probe", "edge.json"}).exit_code, 0);
+  EXPECT_EQ(place.run({"edge.json"}).out, first.out);
+  EXPECT_EQ(runs_in(place), runs);
 }
 
 TEST(EdgeStudy, SaysWhenAnInvariantIsOfNoMetric) {

@@ -116,7 +116,7 @@ TEST(OtherCatalogues, AnOlderOneIsMigratedOnRequestAloneAndANewerOneIsRefused) {
   EXPECT_EQ(older.exit_code, 5);
   EXPECT_THAT(older.error, HasSubstr("runner migrate"));
   const auto before = everything(place.results());
-  EXPECT_THAT(place.run({"migrate", "--check"}).out, HasSubstr("would be brought to schema 2"));
+  EXPECT_THAT(place.run({"migrate", "--check"}).out, HasSubstr("would be brought to schema 3"));
   EXPECT_EQ(everything(place.results()), before);
 
   const Finished migrated = place.run({"migrate"});

@@ -17,11 +17,12 @@ using testing::HasSubstr;
 
 struct PlanTest : testing::Test {
   FakeDisk disk;
+  Equivalences equivalences;
   study::Study study = fake::make_study({{"flat", "bed"}, {"cone", "bed"}});
 
   Plan plan(const std::vector<simulation::NumericsVersion>& numerics = kNumerics) {
     return make_plan(
-        study, [&](const scene::SceneSpec&) { return numerics; }, disk.look());
+        study, [&](const scene::SceneSpec&) { return numerics; }, disk.look(), equivalences);
   }
   void complete_all() {
     disk.complete_bed("bed");
@@ -40,14 +41,13 @@ std::vector<std::string> ids(const Plan& plan) {
 TEST_F(PlanTest, ABedIsNotAskedForTheNumericsOfTheFluidAboveIt) {
   complete_all();
   study.cases[0].scene.fluid.emplace();
-  const Plan all = make_plan(
-      study,
-      [](const scene::SceneSpec& scene) {
-        auto numerics = kNumerics;
-        if (scene.fluid) numerics.push_back({"coupling", 1});
-        return numerics;
-      },
-      disk.look());
+  const Plan all = make_plan(study,
+                             [](const scene::SceneSpec& scene) {
+                               auto numerics = kNumerics;
+                               if (scene.fluid) numerics.push_back({"coupling", 1});
+                               return numerics;
+                             },
+                             disk.look(), {});
   EXPECT_EQ(fake::task(all, "cone").decision.action, Action::fresh);
   EXPECT_EQ(fake::task(all, "bed").decision.action, Action::fresh);
   EXPECT_THAT(fake::task(all, "flat").decision.reason, HasSubstr("coupling none -> 1"));
@@ -93,6 +93,110 @@ TEST_F(PlanTest, MovedNumericsRunEverythingAgainAndSaySo) {
   EXPECT_EQ(fake::task(moved, "flat").decision.reason, "numerics of grains 1 -> 2");
   EXPECT_EQ(plan({{"grains", 1}, {"pile", 1}, {"mesh", 1}}).tasks[0].decision.reason, "numerics of mesh none -> 1");
   EXPECT_EQ(plan({{"grains", 1}}).tasks[0].decision.reason, "numerics of pile 1 -> none");
+}
+
+/// A declaration that runs of the kind with kNumerics are as good as those with grains 2.
+store::Equivalence declaration(const std::string& kind) {
+  store::Equivalence one;
+  one.kind = kind;
+  one.before = kNumerics;
+  one.now = {{"grains", 2}, {"pile", 1}};
+  one.case_id = std::string(64, 'a');
+  one.run = "0001";
+  one.likeness = "tolerance";
+  one.largest = 3e-9;
+  one.tolerance = 1e-6;
+  return one;
+}
+
+TEST_F(PlanTest, RunsWhoseMovedNumericsAreDeclaredEquivalentAreFreshAndSayWhy) {
+  complete_all();
+  equivalences = {declaration("bed"), declaration("drive")};
+  for (const Task& task : plan({{"pile", 1}, {"grains", 2}}).tasks) {
+    EXPECT_EQ(task.decision.action, Action::fresh) << task.id;
+    EXPECT_EQ(task.decision.run, "0001");
+    EXPECT_EQ(task.decision.reason,
+              "equivalent: grains 1 -> 2, probe of case aaaaaaaaaa within 3e-09 (tolerance 1e-06)");
+    EXPECT_FALSE(task.outdated);
+  }
+}
+
+TEST_F(PlanTest, ADriveKeepsTheRunOfABedThatIsEquivalent) {
+  complete_all();
+  disk.histories.erase("cone");
+  equivalences = {declaration("bed"), declaration("drive")};
+  const Plan moved = plan({{"grains", 2}, {"pile", 1}});
+  EXPECT_EQ(fake::task(moved, "bed").decision.action, Action::fresh);
+  EXPECT_EQ(fake::task(moved, "flat").decision.action, Action::fresh);
+  EXPECT_EQ(fake::task(moved, "cone").decision.reason, "never run");
+}
+
+TEST_F(PlanTest, ADeclarationOfAnotherKindOrOfOtherListsDoesNotCount) {
+  complete_all();
+  const auto flat_is = [&](auto change) {
+    equivalences = {declaration("drive")};
+    change(equivalences[0]);
+    return fake::task(plan({{"grains", 2}, {"pile", 1}}), "flat").decision.action;
+  };
+  using store::Equivalence;
+  EXPECT_EQ(flat_is([](Equivalence&) {}), Action::fresh);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.kind = "bed"; }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.before[0].version = 0; }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.before.push_back({"coupling", 1}); }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.before.pop_back(); }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.now[1].version = 2; }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.now.push_back({"coupling", 1}); }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { one.now.pop_back(); }), Action::run);
+  EXPECT_EQ(flat_is([](Equivalence& one) { std::swap(one.before, one.now); }), Action::run);
+}
+
+// Distances add up: what is small twice need not be small together.
+TEST_F(PlanTest, ChainsOfDeclarationsAreNotJoined) {
+  complete_all();
+  equivalences = {declaration("drive"), declaration("drive")};
+  equivalences[1].before[0].version = 2;
+  equivalences[1].now[0].version = 3;
+  EXPECT_EQ(fake::task(plan({{"grains", 3}, {"pile", 1}}), "flat").decision.reason, "numerics of grains 1 -> 3");
+}
+
+TEST_F(PlanTest, NoDeclarationMakesADivergedDamagedOrOtherwiseRecordedRunFresh) {
+  equivalences = {declaration("bed"), declaration("drive")};
+  const auto flat_is = [&](auto change) {
+    complete_all();
+    change(*disk.histories["flat"].past);
+    return fake::task(plan({{"grains", 2}, {"pile", 1}}), "flat").decision.action;
+  };
+  EXPECT_EQ(flat_is([](PastRun& run) { run.outcome = Outcome::diverged; }), Action::run);
+  EXPECT_EQ(flat_is([](PastRun& run) { run.damage = "lost"; }), Action::run);
+  EXPECT_EQ(flat_is([](PastRun& run) { run.record->travel = 1; }), Action::run);
+  EXPECT_EQ(flat_is([](PastRun& run) { run.bed_run = "0007"; }), Action::run);
+}
+
+TEST_F(PlanTest, AnInterruptedRunGoesOnWithTheNumericsItWasBegunWithAlone) {
+  disk.complete_bed("bed");
+  equivalences = {declaration("bed"), declaration("drive")};
+  disk.histories["flat"].interrupted = InterruptedRun{"0001", true, kNumerics, scene::RecordSpec{}, "0001"};
+  EXPECT_EQ(fake::task(plan({{"grains", 2}, {"pile", 1}}), "flat").decision.action, Action::run);
+}
+
+TEST_F(PlanTest, OnlyWhatIsOtherwiseFreshIsOutdatedByItsNumericsAlone) {
+  const std::vector<simulation::NumericsVersion> now = {{"grains", 2}, {"pile", 1}};
+  complete_all();
+  for (const Task& task : plan(now).tasks) {
+    ASSERT_TRUE(task.outdated) << task.id;
+    EXPECT_TRUE(store::same_numerics(task.outdated->before, kNumerics));
+    EXPECT_TRUE(store::same_numerics(task.outdated->now, now));
+  }
+  for (const Task& task : plan().tasks) EXPECT_FALSE(task.outdated) << "nothing moved";
+  const auto flat_is_outdated = [&](auto change) {
+    complete_all();
+    change(*disk.histories["flat"].past);
+    return fake::task(plan(now), "flat").outdated.has_value();
+  };
+  EXPECT_FALSE(flat_is_outdated([](PastRun& run) { run.outcome = Outcome::diverged; }));
+  EXPECT_FALSE(flat_is_outdated([](PastRun& run) { run.damage = "lost"; }));
+  EXPECT_FALSE(flat_is_outdated([](PastRun& run) { run.record->travel = 1; }));
+  EXPECT_FALSE(flat_is_outdated([](PastRun& run) { run.bed_run = "0007"; })) << "on another run of its bed";
 }
 
 TEST_F(PlanTest, ADivergedRunIsRunAgainWithItsReason) {

@@ -97,7 +97,7 @@ struct PoolTest : testing::Test {
   std::optional<FakeWorkers> workers;
 
   void prepare() {
-    plan = make_plan(study, fake::numerics, disk.look());
+    plan = make_plan(study, fake::numerics, disk.look(), {});
     workers.emplace(disk, plan);
   }
   Summary go() {
@@ -387,7 +387,7 @@ TEST_F(PoolTest, AProcessThatCannotBeStartedIsAFailedCase) {
       throw std::system_error(EAGAIN, std::generic_category(), "fork");
     }
   };
-  plan = make_plan(study, fake::numerics, disk.look());
+  plan = make_plan(study, fake::numerics, disk.look(), {});
   NoProcesses none(disk, plan);
   Watch watch{[](auto...) {}, [](auto...) {}, [](auto...) {}, [](auto...) {}, [](auto...) {}, [] {}};
   const Summary summary =

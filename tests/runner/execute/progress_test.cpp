@@ -55,7 +55,7 @@ TEST(DurationText, IsExactWhileItIsShort) {
 std::string shown(bool terminal, const std::function<void(Watch&)>& happens) {
   FILE* stream = std::tmpfile();
   const Plan plan =
-      make_plan(fake::make_study({{"flat", "bed"}, {"cone", "bed"}}), fake::numerics, fake::FakeDisk().look());
+      make_plan(fake::make_study({{"flat", "bed"}, {"cone", "bed"}}), fake::numerics, fake::FakeDisk().look(), {});
   {
     Display display(plan, stream, terminal);
     Watch watch = display.watch();

@@ -396,7 +396,7 @@ TEST_F(FilledCatalogue, IsReadWhileItIsWritten) {
 }
 
 TEST_F(FilledCatalogue, OfANewerProgramIsRefused) {
-  SQLite::Database((root_ / "catalogue.sqlite").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 3");
+  SQLite::Database((root_ / "catalogue.sqlite").string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 4");
   for (const auto open : {&Catalogue::open, &Catalogue::open_read_only}) {
     try {
       open(root_);

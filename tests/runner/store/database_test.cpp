@@ -21,7 +21,7 @@ TEST(Database, IsKeptSafelyWhileItIsWritten) {
   EXPECT_EQ(setting(database, "foreign_keys"), "1");
   EXPECT_EQ(setting(database, "trusted_schema"), "0");
   EXPECT_EQ(setting(database, "cell_size_check"), "1");
-  EXPECT_EQ(setting(database, "user_version"), "2");
+  EXPECT_EQ(setting(database, "user_version"), "3");
 }
 
 TEST(Database, HasOnlyStrictTables) {

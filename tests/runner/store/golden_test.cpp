@@ -1,5 +1,5 @@
-// results_schema/golden/v1 was written by version 1 and is never written again. Whoever cannot read it any more, or
-// reads other values, has broken the promise of results_schema/README.md.
+// results_schema/golden/v<n> was written when the catalogue's schema was <n>, and is never written again. Whoever
+// cannot read one any more, or reads other values, has broken the promise of results_schema/README.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,18 +15,21 @@ namespace {
 
 using Path = std::filesystem::path;
 
-const Path kGolden = SEAPILE_RESULTS_SCHEMA "/golden/v1";
 const std::string kBed = "c633d94908c5c0cabf5cb8e9f92263520d5d0ecf176f34fdfc69b064c1470fd1";
 const std::string kDrive = "e7c3d0475798912a0f1b912e13d4114177037f4bafea20c44670ca9a264f3f43";
 
-Path run(const std::string& id) { return case_folder(kGolden, id) / "0001"; }
+/// The stores hold the same runs; the schema is the parameter.
+struct Golden : testing::TestWithParam<int> {
+  const Path golden = Path(SEAPILE_RESULTS_SCHEMA "/golden") / ("v" + std::to_string(GetParam()));
+  Path run(const std::string& id) const { return case_folder(golden, id) / "0001"; }
+};
 
-TEST(GoldenV1, Verifies) {
+TEST_P(Golden, Verifies) {
   EXPECT_EQ(verify(run(kBed)), std::vector<std::string>{});
   EXPECT_EQ(verify(run(kDrive)), std::vector<std::string>{});
 }
 
-TEST(GoldenV1, HasTheManifestThatWasWritten) {
+TEST_P(Golden, HasTheManifestThatWasWritten) {
   const Manifest manifest = read_manifest(run(kDrive));
   EXPECT_EQ(manifest.schema, 1);
   EXPECT_EQ(manifest.header.kind, "drive");
@@ -36,7 +39,7 @@ TEST(GoldenV1, HasTheManifestThatWasWritten) {
   EXPECT_EQ(manifest.header.bed_run, "0001");
   EXPECT_EQ(manifest.records, 20U);
   EXPECT_EQ(manifest.frames, 2U);
-  EXPECT_EQ(manifest.flow_records, 0U);  // It does not say.
+  EXPECT_EQ(manifest.flow_records, 0U);  // The first one does not say.
   EXPECT_EQ(manifest.flow_frames, 0U);
   EXPECT_EQ(manifest.result.outcome, simulation::Outcome::completed);
   EXPECT_EQ(manifest.result.time, 20.01);
@@ -55,8 +58,18 @@ TEST(GoldenV1, HasTheManifestThatWasWritten) {
   EXPECT_TRUE(std::isnan(read_manifest(run(kBed)).result.depth));
 }
 
+TEST_P(Golden, SaysWhatDecidedAboutAPartSinceItsManifestsDo) {
+  const simulation::Part mesh = read_manifest(run(kDrive)).header.parts.at(3);
+  EXPECT_EQ(mesh.name, "mesh");
+  EXPECT_EQ(mesh.by, GetParam() < 2 ? scene::By::scene : scene::By::asked);
+  EXPECT_EQ(mesh.criterion.has_value(), GetParam() >= 2);
+  if (mesh.criterion) {
+    EXPECT_EQ(mesh.criterion->threshold, 0.5);
+  }
+}
+
 // The values as text, so that no change of the sample can hide a change of the reader.
-TEST(GoldenV1, HasTheLiteralValuesThatWereWritten) {
+TEST_P(Golden, HasTheLiteralValuesThatWereWritten) {
   const auto records = read_series(run(kDrive));
   ASSERT_EQ(records.size(), 20U);
   EXPECT_EQ(records[0].time, 0.05);
@@ -76,16 +89,16 @@ TEST(GoldenV1, HasTheLiteralValuesThatWereWritten) {
   EXPECT_EQ(std::get<std::vector<double>>(bed.grains[2].values)[49], 0.016963976717128324);
 }
 
-TEST(GoldenV1, HasEveryValueThatWasWritten) {
+TEST_P(Golden, HasEveryValueThatWasWritten) {
   EXPECT_EQ(sample::difference(read_series(run(kDrive)), sample::records(0, 20)), "");
   for (const std::size_t k : {0, 1}) EXPECT_EQ(sample::difference(read_frame(run(kDrive), k), sample::frame(k)), "");
   EXPECT_EQ(sample::difference(read_bed(run(kBed)), sample::bed()), "");
 }
 
-TEST(GoldenV1, HasACatalogueThatAnswersOnceItIsMigrated) {
+TEST_P(Golden, HasACatalogueThatAnswersOnceItIsMigrated) {
   const Scratch scratch;
-  std::filesystem::copy(kGolden, scratch.path(), std::filesystem::copy_options::recursive);
-  EXPECT_EQ(migrate(scratch.path()).from, 1);
+  std::filesystem::copy(golden, scratch.path(), std::filesystem::copy_options::recursive);
+  EXPECT_EQ(migrate(scratch.path()).from, GetParam());
   const Catalogue catalogue = Catalogue::open_read_only(scratch.path());
   EXPECT_EQ(catalogue.studies(), std::vector<std::string>{"golden"});
   const Table table = catalogue.query("golden", {"outcome = completed"}, {"tip_resistance_mean", "bed.seed"});
@@ -95,9 +108,9 @@ TEST(GoldenV1, HasACatalogueThatAnswersOnceItIsMigrated) {
   EXPECT_EQ(catalogue.find(kBed.substr(0, 10)), case_folder(scratch.path(), kBed) / "0001");
 }
 
-TEST(GoldenV1, FillsACatalogue) {
+TEST_P(Golden, FillsACatalogue) {
   const Scratch scratch;
-  std::filesystem::copy(kGolden, scratch.path(), std::filesystem::copy_options::recursive);
+  std::filesystem::copy(golden, scratch.path(), std::filesystem::copy_options::recursive);
   std::filesystem::remove(scratch.path() / "catalogue.sqlite");
   Catalogue catalogue = Catalogue::open(scratch.path());
   EXPECT_EQ(catalogue.rebuild(), 2U);
@@ -107,13 +120,15 @@ TEST(GoldenV1, FillsACatalogue) {
   EXPECT_EQ(table.rows[0].back(), Cell{0.125});
 }
 
-TEST(GoldenV1, IsSmall) {
+TEST_P(Golden, IsSmall) {
   std::uintmax_t bytes = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kGolden)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(golden)) {
     if (entry.is_regular_file()) bytes += entry.file_size();
   }
   EXPECT_LT(bytes, 300'000U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Schema, Golden, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace seapile::store

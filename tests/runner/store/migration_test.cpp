@@ -4,9 +4,12 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "runner/store/catalogue.h"
 #include "runner/store/database.h"
 #include "runner/store/durable.h"
+#include "runner/store/equivalence.h"
 #include "tests/runner/store/dump.h"
 #include "tests/runner/store/sample_run.h"
 #include "tests/runner/store/scratch.h"
@@ -44,6 +47,43 @@ TEST_F(StoreOfVersion1, MigratedHoldsWhatAReindexingGives) {
   EXPECT_EQ(migrated, reindexed());
   EXPECT_EQ(schema, sample::schema_of(catalogue()));
   EXPECT_GT(migrated.at("metric").size(), 100U);
+}
+
+/// Declarations as a probe would have left them, one of them damaged.
+void declare_something(const Path& root) {
+  Equivalence one;
+  one.kind = "drive";
+  one.before = {{"grains", 1}, {"pile", 1}};
+  one.now = {{"grains", 2}, {"pile", 1}};
+  one.case_id = std::string(64, 'a');
+  one.run = "0001";
+  one.likeness = "identical";
+  declare(root, one);
+  one.kind = "bed";
+  declare(root, one);
+  write_text(root / "equivalents" / "damaged.json", "{}");
+}
+
+TEST(StoreOfVersion2, MigratedHoldsWhatAReindexingGives) {
+  const Scratch scratch;
+  const Path root = scratch.fresh("root"), catalogue = root / kCatalogueFile;
+  std::filesystem::copy(SEAPILE_RESULTS_SCHEMA "/golden/v2", root, std::filesystem::copy_options::recursive);
+  declare_something(root);
+  EXPECT_THROW(Catalogue::open(root), StoreError) << "nobody migrates without being told to";
+  const Migration done = migrate(root);
+  EXPECT_EQ(done.from, 2);
+  EXPECT_EQ(done.to, kCatalogueVersion);
+  EXPECT_EQ(done.kept, root / "catalogue.sqlite.v2");
+  ASSERT_EQ(done.left_out.size(), 1U);
+  EXPECT_NE(done.left_out[0].find("damaged.json"), std::string::npos);
+  const auto migrated = sample::rows_of_all_tables(catalogue);
+  const auto schema = sample::schema_of(catalogue);
+  std::vector<std::string> left_out;
+  Catalogue::open_anew(root).rebuild(&left_out);
+  EXPECT_EQ(migrated, sample::rows_of_all_tables(catalogue));
+  EXPECT_EQ(schema, sample::schema_of(catalogue));
+  EXPECT_EQ(left_out, done.left_out);
+  EXPECT_EQ(std::ranges::count(migrated.at("equivalence"), '\n'), 2);
 }
 
 TEST_F(StoreOfVersion1, LearnsFromTheManifestsWhatDecidedAboutParts) {
@@ -109,7 +149,7 @@ TEST_F(StoreOfVersion1, IsOnlyLookedAtByAPlan) {
   const std::string before = read_text(catalogue());
   const Migration planned = planned_migration(root_);
   EXPECT_EQ(planned.from, 1);
-  EXPECT_EQ(planned.steps.size(), 1U);
+  EXPECT_EQ(planned.steps.size(), 2U);
   EXPECT_TRUE(planned.kept.empty());
   EXPECT_TRUE(read_text(catalogue()) == before);
   EXPECT_EQ(entries(root_).size(), 3U);
