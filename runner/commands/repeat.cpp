@@ -90,6 +90,9 @@ std::string known_differences(const RunComparison& comparison) {
 std::string line_of(const std::string& kind, const RunComparison& comparison) {
   const std::string name = fmt::format("{:<5} {}", kind, execute::short_id(comparison.case_a));
   const std::string known = known_differences(comparison);
+  if (comparison.state_a != comparison.state_b)
+    return fmt::format("{}  different: final state {} was bundled, {} came out; {}", name, comparison.state_a,
+                       comparison.state_b.empty() ? "none" : comparison.state_b, present::verdict(comparison));
   if (!is_same(comparison)) return fmt::format("{}  different: {}", name, present::verdict(comparison));
   return fmt::format("{}  same: final state {}, to the last bit{}", name, comparison.state_a,
                      known.empty() ? "" : fmt::format("; {} differed and changed no bit", known));
@@ -120,6 +123,21 @@ int judge(const store::Bundle& bundle, const FinishedRun& repeated, const fs::pa
   return execute::kCheckFailed;
 }
 
+/// Throws UsageError, also where what was bundled cannot be compared with itself, nor then with a repetition.
+store::Bundle unpack(const std::string& file, const std::string& folder) {
+  try {
+    store::Bundle bundle = usage_checked([&] { return store::read_bundle(file, folder); });
+    const auto read = [](const store::BundledRun& run) {
+      return present::compare({run.folder, run.manifest}, {run.folder, run.manifest});
+    };
+    if (read(bundle.run).state_a.empty() || (bundle.bed && read(*bundle.bed).state_a.empty()))
+      throw UsageError(file + ": it holds no final state to compare");
+    return bundle;
+  } catch (const store::StoreError& error) {
+    throw UsageError(store::said_of_bundle(error.what(), file, folder));
+  }
+}
+
 /// A store of its own has the grains too, so that its runs can be repeated and bundled again.
 void keep_grains(const fs::path& from, const fs::path& to) {
   if (fs::is_regular_file(to)) return;
@@ -132,13 +150,7 @@ void keep_grains(const fs::path& from, const fs::path& to) {
 int repeat(const std::string& bundle_file, const execute::CampaignOptions& options, bool dry_run) {
   const fs::path root = options.root;
   const Unpacked unpacked;
-  const store::Bundle bundle = usage_checked([&] {
-    try {
-      return store::read_bundle(bundle_file, unpacked.folder());
-    } catch (const store::StoreError& error) {
-      throw std::invalid_argument(error.what());
-    }
-  });
+  const store::Bundle bundle = unpack(bundle_file, unpacked.folder());
   study::Study study =
       execute::repetition_of(bundle.run.manifest, bundle.grains ? bundle.grains->file : fs::path(), bundle_file);
   const fs::path grains = bundle.grains ? fs::absolute(root / store::grains_path(bundle.grains->content)) : fs::path();

@@ -53,4 +53,8 @@ void write_bundle(const std::filesystem::path& file, const Bundle& bundle, bool 
 /// or newer than this program; StoreError when it cannot be read or unpacked.
 Bundle read_bundle(const std::filesystem::path& file, const std::filesystem::path& folder);
 
+/// A sentence about what was unpacked into the folder, as one about the bundle: the folder means nothing to a reader.
+std::string said_of_bundle(std::string sentence, const std::filesystem::path& file,
+                           const std::filesystem::path& folder);
+
 }  // namespace seapile::store

@@ -143,13 +143,15 @@ Bundle read_bundle(const Path& file, const Path& folder) {
     return Unpacker(file, folder).run();
   } catch (const StoreError& error) {
     if (error.kind != StoreError::Kind::damaged) throw;
-    // It names the place where a member was unpacked to, of which the reader knows nothing.
-    std::string sentence = error.what();
-    const std::string place = folder.string() + "/";
-    for (std::size_t at = 0; (at = sentence.find(place, at)) != std::string::npos;)
-      sentence.replace(at, place.size(), file.string() + ": ");
-    throw std::invalid_argument(sentence);
+    throw std::invalid_argument(said_of_bundle(error.what(), file, folder));
   }
+}
+
+std::string said_of_bundle(std::string sentence, const Path& file, const Path& folder) {
+  const std::string place = folder.string() + "/";
+  for (std::size_t at = 0; (at = sentence.find(place, at)) != std::string::npos;)
+    sentence.replace(at, place.size(), file.string() + ": ");
+  return sentence;
 }
 
 }  // namespace seapile::store
