@@ -41,9 +41,16 @@ std::optional<store::BundledGrains> grains_of(const store::Manifest& manifest, c
   return store::BundledGrains{bed.file_content, bed.file};
 }
 
+/// Only a plain file is ever replaced: a rename over a device or a link would take its place.
+void require_free(const std::string& out, bool force) {
+  const fs::file_status status = fs::symlink_status(out);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) throw UsageError(fmt::format("{} is there already, and is no plain file", out));
+  if (!force) throw UsageError(fmt::format("{} is there already; --force writes over it", out));
+}
+
 int export_bundle(const ExportArguments& arguments) {
-  if (fs::exists(fs::symlink_status(arguments.out)) && !arguments.force)
-    throw UsageError(fmt::format("{} is there already; --force writes over it", arguments.out));
+  require_free(arguments.out, arguments.force);
   const auto found = find_run(arguments.root, arguments.id);
   if (!found) return execute::kNothingMatched;
   if (const auto why = objection(found->manifest); !why.empty())

@@ -91,6 +91,10 @@ TEST_F(Bundle, AFileThatIsThereIsWrittenOverOnlyByForce) {
   EXPECT_EQ(content(place->folder() / "taken.tar"), "mine");
   EXPECT_EQ(place->run({"export", "--bundle", *id, "-o", "taken.tar", "--force"}).exit_code, 0);
   EXPECT_EQ(content(place->folder() / "taken.tar"), content(place->folder() / "drive.tar"));
+  fs::create_symlink("taken.tar", place->folder() / "link.tar");
+  for (const char* other : {"link.tar", "scratch"})
+    EXPECT_THAT(place->run({"export", "--bundle", *id, "-o", other, "--force"}).error, HasSubstr("is no plain file"));
+  EXPECT_TRUE(fs::is_symlink(place->folder() / "link.tar"));
   EXPECT_EQ(place->run({"export", "--bundle", "ffffffff", "-o", "none.tar"}).exit_code, 4);
   EXPECT_EQ(place->run({"export", "--bundle", *id, "-o", "no/folder.tar"}).exit_code, 2);
   EXPECT_EQ(place->run({"export", "--bundle", *id}).exit_code, 2);
@@ -325,6 +329,21 @@ TEST_F(Bundle, GrainsOfAFileGoAlong) {
   EXPECT_THAT(refused.error, HasSubstr("/scene/bed/file"));
   mine.write("grains.csv", grains + "8,0,0.3,0.04\n");
   EXPECT_EQ(mine.run({"export", "--bundle", ids.front(), "-o", "changed.tar"}).exit_code, 2);
+}
+
+TEST_F(Bundle, WhatDivergedIsRepeatedToTheSameEnd) {
+  const Workplace mine;
+  mine.write("steep.json", R"({"study": "steep", "question": "How steep?", "record": {"interval": 0.05},
+    "base": {"basin": {"surface": {"scheme": "galerkin", "initial": {"cosine": {"amplitude": 0.1}}},
+      "mesh": {"pattern": {"structured": {"columns": 16, "rows": 4}}}, "time": {"step": 0.05, "duration": 20}}}})");
+  ASSERT_EQ(mine.run({"steep.json"}).exit_code, 1);
+  const std::string steep =
+      json::parse(mine.run({"query", "steep", "--format", "json"}).out).at("rows").at(0).at("case");
+  ASSERT_EQ(mine.run({"export", "--bundle", steep, "-o", "steep.tar"}).exit_code, 0);
+  const Finished same = mine.run({"run", "--from", "steep.tar"});
+  EXPECT_EQ(same.exit_code, 0) << same.error;
+  EXPECT_THAT(same.out, HasSubstr("flow  " + steep + "  same: final state "));
+  EXPECT_THAT(same.error, HasSubstr("diverged: the surface is too steep"));
 }
 
 TEST(Repetition, OnlyWhatThisProgramMadeIsOne) {
