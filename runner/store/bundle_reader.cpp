@@ -91,7 +91,9 @@ class Unpacker {
       refuse(fmt::format("{} has {} bytes instead of {}", name, member.bytes, entry.bytes));
 
     const Path to = folder_ / member.name;
-    make_folder(to.parent_path());
+    std::error_code
+        error;  // Where it cannot be created, neither can the file. Nothing here has to survive: no syncing.
+    std::filesystem::create_directories(to.parent_path(), error);
     Descriptor out(to, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, "create");
     Sha256 hash;
     std::uint64_t left = entry.bytes;

@@ -30,7 +30,7 @@ constexpr const char* kStudy = R"({
   "study": "small", "question": "How much does it resist?",
   "base": {
     "bed": {"domain": {"width": "0.8 m", "height": "1.5 m"},
-            "grains": {"count": 150, "radius": {"min": "0.02 m", "max": "0.03 m"}}},
+            "grains": {"count": 80, "radius": {"min": "0.02 m", "max": "0.03 m"}}},
     "pile": {"radius": "0.05 m", "depth": "0.1 m", "driving": {"constant": {"speed": "0.4 m/s"}}},
     "fluid": null},
   "record": {"frames": ["0 m", "0.1 m"]}
