@@ -33,6 +33,7 @@ void add_trend(CLI::App& app, Call& call);
 void add_check(CLI::App& app, Call& call);
 void add_compare(CLI::App& app, Call& call);
 void add_probe(CLI::App& app, Call& call);
+void add_export(CLI::App& app, Call& call);
 void add_gc(CLI::App& app, Call& call);
 void add_report(CLI::App& app, Call& call);
 void add_show(CLI::App& app, Call& call);

@@ -91,7 +91,7 @@ Words known(const std::string& root, bool studies) {
 Words values(const CLI::Option& option, const Words& before, const std::string& word) {
   if (Words names = choices(option); !names.empty()) return names;
   const std::string name = option.get_name(true);
-  if (option.check_lname("from")) return shipped_names();
+  if (option.check_lname("from") && option.get_type_name() == "STUDY") return shipped_names();
   if (name.starts_with("ID") || name.starts_with("RUN") || name.starts_with("A") || name.starts_with("B"))
     return known(store_of(before), false);
   if (!name.starts_with("STUDY")) return {};

@@ -48,6 +48,7 @@ int run_program(int count, char** arguments) {
   commands::add_check(app, call);
   commands::add_compare(app, call);
   commands::add_probe(app, call);
+  commands::add_export(app, call);
   commands::add_gc(app, call);
   commands::add_report(app, call);
   commands::add_show(app, call);

@@ -11,6 +11,7 @@
 #include "runner/commands/command.h"
 #include "runner/commands/edges.h"
 #include "runner/commands/packings.h"
+#include "runner/commands/repeat.h"
 #include "runner/execute/campaign.h"
 #include "runner/execute/exit_codes.h"
 #include "runner/execute/tint.h"
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments {
-  std::string study;
+  std::string study, bundle;
   study::Options options;
   execute::CampaignOptions campaign;
   bool dry_run = false;
@@ -170,8 +171,11 @@ int run(const RunArguments& arguments) {
 void add_run(CLI::App& app, Call& call) {
   static RunArguments arguments;
   execute::CampaignOptions& campaign = arguments.campaign;
-  CLI::App* command = app.add_subcommand("run", "Run what a study lacks, and show its results");
-  command->add_option("STUDY", arguments.study, "Study file")->required();
+  CLI::App* command = app.add_subcommand("run", "Run what a study lacks, and show its results; or repeat a run");
+  CLI::Option* study = command->add_option("STUDY", arguments.study, "Study file");
+  CLI::Option* from = command->add_option("--from", arguments.bundle, "Repeat the run of a bundle instead of a study")
+                          ->type_name("FILE.tar")
+                          ->excludes(study);
   add_study_options(*command, arguments.options);
   add_sharing_options(*command, campaign.sharing);
   command->add_option("--checkpoint", campaign.checkpoint_every, "Wall time between two checkpoints of a case [s]")
@@ -180,11 +184,24 @@ void add_run(CLI::App& app, Call& call) {
   add_store_option(*command, campaign.root);
   command->add_flag("--dry-run", arguments.dry_run, "Say what would be run, and why; write nothing");
   command->footer(
+      "--from: the bed and the case of a bundle (runner export --bundle) are computed from nothing by this program, in "
+      "a\n"
+      "store of their own, \"again\" unless --store names one, and compared with what was bundled. Exit code 0: the "
+      "final\n"
+      "states are the same to the last bit; 3: they are not, with the distances and what is known to differ.\n\n"
       "Examples:\n"
       "  runner run studies/tip_shape.json --dry-run\n"
       "  runner run studies/velocity.json --seeds 5 --jobs 2\n"
-      "  runner run studies/tip_shape.json --set \"pile.driving.constant.speed=0.2 m/s\"");
-  command->callback([&call] { call = [] { return run(arguments); }; });
+      "  runner run studies/tip_shape.json --set \"pile.driving.constant.speed=0.2 m/s\"\n"
+      "  runner run --from drive.tar                       a run that somebody has exported");
+  for (const char* of_studies : {"--set", "--seeds", "--fidelity"}) from->excludes(command->get_option(of_studies));
+  command->callback([&call, study, from, store = command->get_option("--store")] {
+    if (study->count() + from->count() == 0) throw CLI::RequiredError("STUDY or --from");
+    if (from->count() > 0 && store->count() == 0) arguments.campaign.root = kRepetitionRoot;
+    call = [repeats = from->count() > 0] {
+      return repeats ? repeat(arguments.bundle, arguments.campaign, arguments.dry_run) : run(arguments);
+    };
+  });
 }
 
 }  // namespace seapile::commands

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <regex>
 #include <set>
 
@@ -16,21 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Path = fs::path;
-
-/// Absent: no file of ours has such a name.
-std::optional<Purpose> purpose_of(const std::string& path) {
-  static const std::set<std::string> kRecord = {kManifestFile,  "dropped.json",  "log.txt",
-                                                "attempt.json", "progress.json", "failure.json"};
-  static const std::regex kFields("(grains|contacts|fields|flow)\\.(vtkhdf|xdmf)|surface\\.h5");
-  static const std::regex kRunning("checkpoint/[ab]\\.h5|segment/[0-9]{6}\\.h5|post_mortem\\.h5");
-  if (is_temporary(path) || path.ends_with(".aside")) return Purpose::leftover;
-  if (kRecord.contains(path)) return Purpose::record;
-  if (path == "bed.h5") return Purpose::grains;
-  if (path == "series.h5") return Purpose::series;
-  if (std::regex_match(path, kFields)) return Purpose::fields;
-  if (std::regex_match(path, kRunning)) return Purpose::checkpoint;
-  return std::nullopt;
-}
 
 /// The files of a folder of the run, and of its folders of running files.
 void list(const Path& folder, const std::string& before, StoredRun& run) {
@@ -72,6 +56,20 @@ const char* name(Purpose purpose) {
   constexpr std::array<const char*, kPurposes> kNames = {"record", "grains",      "series",
                                                          "fields", "checkpoints", "leftovers"};
   return kNames[static_cast<std::size_t>(purpose)];
+}
+
+std::optional<Purpose> purpose_of(const std::string& path) {
+  static const std::set<std::string> kRecord = {kManifestFile,  "dropped.json",  "log.txt",
+                                                "attempt.json", "progress.json", "failure.json"};
+  static const std::regex kFields("(grains|contacts|fields|flow)\\.(vtkhdf|xdmf)|surface\\.h5");
+  static const std::regex kRunning("checkpoint/[ab]\\.h5|segment/[0-9]{6}\\.h5|post_mortem\\.h5");
+  if (is_temporary(path) || path.ends_with(".aside")) return Purpose::leftover;
+  if (kRecord.contains(path)) return Purpose::record;
+  if (path == "bed.h5") return Purpose::grains;
+  if (path == "series.h5") return Purpose::series;
+  if (std::regex_match(path, kFields)) return Purpose::fields;
+  if (std::regex_match(path, kRunning)) return Purpose::checkpoint;
+  return std::nullopt;
 }
 
 std::vector<StoredRun> runs_on_disk(const Path& case_folder) {

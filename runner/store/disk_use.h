@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ inline constexpr std::size_t kPurposes = 6;
 
 /// "record", "grains", "series", "fields", "checkpoints", "leftovers".
 const char* name(Purpose purpose);
+
+/// Of a file by its path in a run's folder; absent: no file of ours has such a name.
+std::optional<Purpose> purpose_of(const std::string& path);
 
 struct StoredFile {
   std::string path;  ///< relative to the run's folder

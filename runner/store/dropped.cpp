@@ -17,7 +17,7 @@ using Path = std::filesystem::path;
 
 }  // namespace
 
-void write_dropped(const Path& run_folder, const Manifest& manifest, const std::vector<std::string>& paths) {
+std::string dropped_text(const Manifest& manifest, const std::vector<std::string>& paths) {
   std::vector<std::string> all = manifest.dropped;
   all.insert(all.end(), paths.begin(), paths.end());
   std::ranges::sort(all);
@@ -28,7 +28,11 @@ void write_dropped(const Path& run_folder, const Manifest& manifest, const std::
                      {"run", manifest.run},
                      {"manifest", manifest.seal},
                      {"files", all}};
-  write_text(run_folder / kDroppedFile, with_seal(json.dump(2)));
+  return with_seal(json.dump(2));
+}
+
+void write_dropped(const Path& run_folder, const Manifest& manifest, const std::vector<std::string>& paths) {
+  write_text(run_folder / kDroppedFile, dropped_text(manifest, paths));
 }
 
 void apply_dropped(const Path& run_folder, Manifest& manifest) {

@@ -12,9 +12,12 @@ namespace seapile::store {
 
 inline constexpr const char* kDroppedFile = "dropped.json";
 
-/// Seals the names of files that are about to be removed, with those that were removed before. `manifest`: as
-/// read_manifest() gives it. Until this has returned no file may go: a crash before leaves a whole run, one after
-/// leaves files that no longer count. Throws StoreError.
+/// The text of dropped.json that names these files and those that were removed before. `manifest`: as read_manifest()
+/// gives it.
+std::string dropped_text(const Manifest& manifest, const std::vector<std::string>& paths);
+
+/// Seals it, before those files are removed. Until this has returned no file may go: a crash before leaves a whole run,
+/// one after leaves files that no longer count. Throws StoreError.
 void write_dropped(const std::filesystem::path& run_folder, const Manifest& manifest,
                    const std::vector<std::string>& paths);
 

@@ -175,6 +175,18 @@ std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed
   return object_text(members);
 }
 
+Case case_of(const scene::SceneSpec& scene) {
+  Case one;
+  one.scene = scene;
+  if (!is_water(scene)) {
+    one.bed_canonical = canonical_text(scene.bed);
+    one.bed_id = case_id(one.bed_canonical);
+  }
+  one.canonical = canonical_text(scene, one.bed_id);
+  one.id = case_id(one.canonical);
+  return one;
+}
+
 std::string canonical_text(const scene::RecordSpec& record) {
   return object_text(members_of<Purpose::identity>(record));
 }

@@ -215,14 +215,7 @@ class Expander {
 
   /// Gives the case its names, and refuses it when it has those of another.
   void name_case(const scene::SceneSpec& scene) {
-    Case one;
-    one.scene = scene;
-    if (!is_water(scene)) {
-      one.bed_canonical = canonical_text(scene.bed);
-      one.bed_id = case_id(one.bed_canonical);
-    }
-    one.canonical = canonical_text(scene, one.bed_id);
-    one.id = case_id(one.canonical);
+    Case one = case_of(scene);
     if (variant_) one.labels.emplace_back(kVariant, variant_->name);
     for (std::size_t axis = 0; axis < grammar_.axes.size(); ++axis) {
       for (const Column& column : grammar_.axes[axis].columns) {

@@ -91,6 +91,9 @@ std::string canonical_text(const scene::BedSpec& bed);
 std::string canonical_text(const scene::SceneSpec& scene, const std::string& bed_id);
 std::string canonical_text(const scene::RecordSpec& record);
 
+/// The case of a complete scene, with its names but without labels.
+Case case_of(const scene::SceneSpec& scene);
+
 /// SHA-256 of a canonical text, 64 lower-case hex digits.
 std::string case_id(const std::string& canonical);
 
