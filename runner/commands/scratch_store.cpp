@@ -27,7 +27,8 @@ constexpr const char* kPrefix = "probe.";
 void sweep(const fs::path& root) {
   for (const fs::path& entry : store::entries(root)) {
     if (!entry.filename().string().starts_with(kPrefix) || fs::is_symlink(entry) || !fs::is_directory(entry)) continue;
-    if (!store::Claim::take(entry)) continue;
+    // One without a lock is being made this moment, or is none of ours.
+    if (!store::is_there(entry / "lock") || !store::Claim::take(entry)) continue;
     std::error_code ignored;
     fs::remove_all(entry, ignored);
   }

@@ -172,6 +172,16 @@ std::string frame_of(const Figure& figure, const Axes& axes, const Reach& reach)
   return script;
 }
 
+/// Whether a line has a point: a run's own, or of packings their means over bins.
+bool shows_anything(const Figure& figure) {
+  return std::ranges::any_of(figure.groups, [&](const CurveGroup& group) {
+    const bool by_bins = group.packings.size() > 1 || figure.groups.size() > kMostFaint;
+    return std::ranges::any_of(group.packings, [&](const ResistanceCurve& curve) {
+      return by_bins ? !bin_means(curve).empty() : !all_points(curve).empty();
+    });
+  });
+}
+
 }  // namespace
 
 std::optional<ShownPoint> shown(const ResistanceCurve& curve, double depth, double resistance) {
@@ -283,6 +293,12 @@ std::string gnuplot_script(const Figure& figure) {
   return script + blocks + "plot \\\n" + bands + faint + strong + "  NaN axes x2y1 notitle\n";
 }
 
-void draw(const Figure& figure, const fs::path& svg) { draw_with_gnuplot(gnuplot_script(figure), fs::absolute(svg)); }
+void draw(const Figure& figure, const fs::path& svg) {
+  if (!shows_anything(figure))
+    throw store::StoreError(
+        store::StoreError::Kind::io,
+        fmt::format("{} is not drawn: no drive goes through a full {} m of depth", svg.string(), kBinWidth));
+  draw_with_gnuplot(gnuplot_script(figure), fs::absolute(svg));
+}
 
 }  // namespace seapile::present

@@ -110,6 +110,8 @@ TEST_F(Probe, WhatMovedNothingIsFreshAndNothingIsComputed) {
     EXPECT_THAT(row.at("reason").get<std::string>(), HasSubstr("numerics of grains"));
   const auto before = everything(place.results() / "cases");
   fs::create_directories(place.results() / "probe.a1b2c3" / "cases");  // as of a probe that was killed
+  std::ofstream(place.results() / "probe.a1b2c3" / "lock");
+  fs::create_directories(place.results() / "probe.mine");  // a user's
   const auto groups = rows({"probe", "small.json"});
   ASSERT_THAT(groups, SizeIs(2));
   for (const json& group : groups) {
@@ -118,6 +120,7 @@ TEST_F(Probe, WhatMovedNothingIsFreshAndNothingIsComputed) {
     EXPECT_EQ(group.at("cases"), group.at("kind") == "bed" ? 1 : 2);
   }
   EXPECT_THAT(declarations(), SizeIs(2));
+  EXPECT_TRUE(fs::remove(place.results() / "probe.mine"));
   EXPECT_TRUE(is_tidy());
 
   for (const json& row : rows({"plan", "small.json"})) {

@@ -92,6 +92,21 @@ TEST(BandOfPackings, NarrowsWithTheNumberOfPackings) {
   }
 }
 
+TEST_F(FigureTest, DrivesThatAreTooShortForALineAreToldInASentence) {
+  const std::vector<CurveGroup> many(kMostFaint + 1, CurveGroup{"", {ramp(0.04)}});
+  for (const auto& groups : {std::vector<CurveGroup>{{"", {ramp(0.04), ramp(0.03)}}}, many}) {
+    try {
+      draw({"", groups}, folder / "a.svg");
+      ADD_FAILURE() << "something was drawn";
+    } catch (const store::StoreError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("a.svg is not drawn: no drive goes through a full 0.05 m of depth"));
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder / "a.svg"));
+  draw({"", {{"", {ramp(0.04)}}}}, folder / "a.svg");  // a run by itself is drawn record by record
+  EXPECT_TRUE(fs::exists(folder / "a.svg"));
+}
+
 TEST_F(FigureTest, SeveralPackingsHaveABandAndALegendThatSaysSo) {
   ResistanceCurve higher = ramp(1.2);
   for (double& value : higher.resistance) value += 2000;
