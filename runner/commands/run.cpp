@@ -174,8 +174,7 @@ void add_run(CLI::App& app, Call& call) {
   CLI::App* command = app.add_subcommand("run", "Run what a study lacks, and show its results; or repeat a run");
   CLI::Option* study = command->add_option("STUDY", arguments.study, "Study file");
   CLI::Option* from = command->add_option("--from", arguments.bundle, "Repeat the run of a bundle instead of a study")
-                          ->type_name("FILE.tar")
-                          ->excludes(study);
+                          ->type_name("FILE.tar");
   add_study_options(*command, arguments.options);
   add_sharing_options(*command, campaign.sharing);
   command->add_option("--checkpoint", campaign.checkpoint_every, "Wall time between two checkpoints of a case [s]")
@@ -194,9 +193,13 @@ void add_run(CLI::App& app, Call& call) {
       "  runner run studies/velocity.json --seeds 5 --jobs 2\n"
       "  runner run studies/tip_shape.json --set \"pile.driving.constant.speed=0.2 m/s\"\n"
       "  runner run --from drive.tar                       a run that somebody has exported");
-  for (const char* of_studies : {"--set", "--seeds", "--fidelity"}) from->excludes(command->get_option(of_studies));
-  command->callback([&call, study, from, store = command->get_option("--store")] {
-    if (study->count() + from->count() == 0) throw CLI::RequiredError("STUDY or --from");
+  std::vector<const CLI::Option*> of_studies = {study};
+  for (const char* name : {"--set", "--seeds", "--fidelity"}) of_studies.push_back(command->get_option(name));
+  command->callback([&call, of_studies, from, store = command->get_option("--store")] {
+    const bool with_study = std::ranges::any_of(of_studies, [](const CLI::Option* one) { return one->count() > 0; });
+    if (from->count() > 0 && with_study)
+      throw CLI::ExcludesError("--from", "STUDY, --set, --seeds or --fidelity: the run is repeated as it was");
+    if (from->count() + of_studies.front()->count() == 0) throw CLI::RequiredError("STUDY or --from");
     if (from->count() > 0 && store->count() == 0) arguments.campaign.root = kRepetitionRoot;
     call = [repeats = from->count() > 0] {
       return repeats ? repeat(arguments.bundle, arguments.campaign, arguments.dry_run) : run(arguments);
