@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "runner/present/edge.h"
@@ -21,5 +22,9 @@ std::vector<std::vector<double>> untried_probes(const study::Study& study,
 /// All values that were tried and those to try next, by combination; empty: nothing is left to try.
 std::vector<std::vector<double>> next_probes(const study::Study& study,
                                              const std::vector<present::EdgeSearch>& searches);
+
+/// The study of a file with every value as a case that its searches have come to in the store, tried or to be tried
+/// next. Throws as edge_searches() does.
+study::Study searched(const std::string& file, study::Options options, const std::filesystem::path& root);
 
 }  // namespace seapile::commands

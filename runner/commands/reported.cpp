@@ -34,13 +34,7 @@ using present::Tone;
 /// The study with the cases that it has come to: of a rule its packings, of an edge all values that were tried.
 study::Study read_whole(const ReportRequest& request) {
   study::Study study = read_settled(request.study, request.options, request.root);
-  if (!study.edge) return study;
-  study::Options options = request.options;
-  for (const present::EdgeSearch& search : edge_searches(study, request.root)) {
-    std::vector<double>& values = options.probes.emplace_back();
-    for (const present::EdgeProbe& probe : search.probes) values.push_back(probe.value);
-  }
-  return study::read(request.study, options);
+  return study.edge ? searched(request.study, request.options, request.root) : study;
 }
 
 std::string today() {

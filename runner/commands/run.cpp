@@ -94,12 +94,11 @@ void say_what_is_built(const study::Study& study) {
 /// all that was tried stays in the catalogue under the study.
 int run_edge(const RunArguments& arguments) {
   const fs::path root = arguments.campaign.root;
-  study::Options options = arguments.options;
   for (;;) {
-    const study::Study study = study::read(arguments.study, options);
+    const study::Study study = searched(arguments.study, arguments.options, root);
     const auto searches = edge_searches(study, root);
     if (const auto untried = untried_probes(study, searches); !untried.empty()) {
-      study::Options round = options;
+      study::Options round = arguments.options;
       round.probes = untried;
       const study::Study to_run = study::read(arguments.study, round);
       execute::Campaign campaign(to_run, arguments.campaign);
@@ -112,11 +111,6 @@ int run_edge(const RunArguments& arguments) {
       const int code = campaign.carry_out();
       if (code != execute::kDone && code != execute::kSomeCasesFailed) return code;
       if (untried_probes(study, edge_searches(study, root)) == untried) return code;  // they failed to run at all
-      continue;
-    }
-    const auto probes = next_probes(study, searches);
-    if (!probes.empty()) {
-      options.probes = probes;
       continue;
     }
     if (!arguments.dry_run) store::Catalogue::open(root).put(execute::entry_of(study));

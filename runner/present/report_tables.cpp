@@ -142,8 +142,10 @@ ReportTable cost_table(const std::vector<ReportRun>& runs, const std::vector<Rep
     cost.notes.push_back(fmt::format("{}: {}.", name, known.meaning));
   }
   cost.notes.insert(cost.notes.begin(),
-                    fmt::format("{} runs took {:.4g} CPU s, and {} beds that they are built on {:.4g} CPU s.",
-                                runs.size(), cpu_of(runs), beds.size(), cpu_of(beds)));
+                    fmt::format("{} run{} took {:.4g} CPU s{}.", runs.size(), runs.size() == 1 ? "" : "s", cpu_of(runs),
+                                beds.empty() ? ""
+                                             : fmt::format(", and {} bed{} below them {:.4g} CPU s", beds.size(),
+                                                           beds.size() == 1 ? "" : "s", cpu_of(beds))));
   return cost;
 }
 

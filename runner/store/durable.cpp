@@ -116,6 +116,11 @@ void sync_folder(const std::filesystem::path& folder) {
 }
 
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& file) {
+  // Root may put a file in the place of a device, which is nobody's wish.
+  struct stat status {};
+  if (::lstat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode) &&
+      !S_ISLNK(status.st_mode))
+    throw StoreError(Kind::io, "cannot write " + file.string() + ": it is there, and no regular file");
   if (::rename(temporary.c_str(), file.c_str()) != 0) throw system_error(Kind::io, "give its name to", file);
   sync_folder(folder_of(file));
 }

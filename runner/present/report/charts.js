@@ -103,10 +103,17 @@ function tooltipOf(block) {
   };
 }
 
+// Chart.js writes numbers below a millionth with every digit that their spacing has.
+function tickText(value, index, ticks) {
+  const largest = Math.max(...ticks.map((tick) => Math.abs(tick.value)));
+  if (largest >= 1e-4 && largest < 1e7) return Chart.Ticks.formatters.numeric.call(this, value, index, ticks);
+  return value === 0 ? "0" : String(Number(value.toPrecision(3)).toExponential());
+}
+
 function scaleOf(axis, more) {
   return {
     type: "linear", title: { display: true, text: axisTitle(axis), color: kInk, font: { size: 14 } },
-    ticks: { color: kAxis }, grid: { color: kGrid, borderColor: "#8c8c8c" }, ...more,
+    ticks: { color: kAxis, callback: tickText }, grid: { color: kGrid, borderColor: "#8c8c8c" }, ...more,
   };
 }
 

@@ -47,6 +47,10 @@ TEST(EdgeStudy, EndsBetweenWhatHoldsAndWhatDoesNotAndTriesNothingTwice) {
   EXPECT_EQ(runs_in(place), runs) << "what diverged is a result";
   // All that was tried belongs to the study.
   EXPECT_THAT(place.run({"query", "edge"}).out, HasSubstr("galerkin"));
+  ASSERT_EQ(place.run({"report", "edge.json", "-o", "edge.html"}).exit_code, 0);
+  const std::string report = content(place.folder() / "edge.html");
+  EXPECT_THAT(report, HasSubstr("\"found\""));
+  EXPECT_THAT(report, Not(HasSubstr("\"searching\"")));
 
   // Numerics that moved ask for all of it again, unless a probe has declared them equivalent.
   for (const auto& one : fs::directory_iterator(place.results() / "cases")) {

@@ -36,6 +36,14 @@ TEST(Durable, ATextThatCannotBeWrittenLeavesTheOneBefore) {
   EXPECT_EQ(entries(scratch.path()), 1U);
 }
 
+TEST(Durable, NeitherAPipeNorADeviceGivesWayToAFile) {
+  const Scratch scratch;
+  ASSERT_EQ(::mkfifo((scratch.path() / "text").c_str(), 0600), 0);
+  EXPECT_THROW(write_text(scratch.path() / "text", "text"), StoreError);
+  EXPECT_TRUE(std::filesystem::is_fifo(scratch.path() / "text"));
+  EXPECT_EQ(entries(scratch.path()), 1U);
+}
+
 TEST(Durable, TemporaryNamesAreNeverTheSame) {
   std::set<std::filesystem::path> names;
   for (int i = 0; i < 1000; ++i) names.insert(temporary_name("/a/series.h5"));
