@@ -81,7 +81,9 @@ TEST_F(FigureCommand, EveryKindIsAWholePictureInEitherFormat) {
     const Finished png = place->run({"figure", kind, ids["flat"], ids["conical"], "--depth", "0.1", "--out", "a.png"});
     EXPECT_EQ(png.exit_code, 0) << png.error;
     const Picture picture = picture_from_png(content(place->folder() / "a.png"));
-    if (kind != std::string("zone")) EXPECT_GT(picture.width, picture.height) << "side by side";
+    if (kind != std::string("zone")) {
+      EXPECT_GT(picture.width, picture.height) << "side by side";
+    }
     EXPECT_GT(std::set(picture.pixels.begin(), picture.pixels.end()).size(), 50u);
     EXPECT_EQ(picture.at(0, 0), 0xFFFFFFu);
   }
