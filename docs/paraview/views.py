@@ -23,6 +23,12 @@ def opened(file):
     return reader
 
 
+def two_views(name):
+    layout = simple.CreateLayout(name)
+    layout.SplitHorizontal(0, 0.5)
+    return layout, view_beside(layout, 1), view_beside(layout, 2)
+
+
 def view_beside(layout, at):
     view = simple.CreateView("RenderView")
     view.ViewSize = [WIDTH, HEIGHT]
@@ -72,10 +78,17 @@ def titled(view, words):
     text.Color, text.FontSize, text.WindowLocation = INK, 16, "Upper Center"
 
 
+def saved(layout, titles, time, bounds, file):
+    """Each view at the time, on the bounds, under its title."""
+    for view, words in titles.items():
+        view.ViewTime = time
+        framed(view, bounds)
+        titled(view, words)
+    simple.SaveScreenshot(str(file), layout, ImageResolution=[2 * WIDTH, HEIGHT], CompressionLevel="9")
+
+
 def soil(run, out, step):
-    layout = simple.CreateLayout("soil")
-    layout.SplitHorizontal(0, 0.5)
-    left, right = view_beside(layout, 1), view_beside(layout, 2)
+    layout, left, right = two_views("soil")
     grains, contacts = opened(run / "grains.xdmf"), opened(run / "contacts.xdmf")
     time = grains.TimestepValues[step]
     grains.UpdatePipeline(time), contacts.UpdatePipeline(time)
@@ -100,19 +113,11 @@ def soil(run, out, step):
     display.LineWidth = 2
     table = simple.GetColorTransferFunction("normal force")
     table.InvertTransferFunction()
-    for view in (left, right):
-        view.ViewTime = time
-        framed(view, bounds)
-    titled(left, f"grains after {time:.3g} s")
-    titled(right, "contacts")
-    simple.SaveScreenshot(str(out / "paraview_soil.png"), layout, ImageResolution=[2 * WIDTH, HEIGHT],
-                          CompressionLevel="9")
+    saved(layout, {left: f"grains after {time:.3g} s", right: "contacts"}, time, bounds, out / "paraview_soil.png")
 
 
 def water(run, out, step):
-    layout = simple.CreateLayout("water")
-    layout.SplitHorizontal(0, 0.5)
-    left, right = view_beside(layout, 1), view_beside(layout, 2)
+    layout, left, right = two_views("water")
     flow = opened(run / "flow.xdmf")
     time = flow.TimestepValues[step]
     flow.UpdatePipeline(time)
@@ -124,13 +129,8 @@ def water(run, out, step):
     display.EdgeColor = [0.75, 0.75, 0.75]
     # A source that is shown anew lets the range of the array that it had before grow.
     simple.GetColorTransferFunction("pressure").RescaleTransferFunction(-most, most)
-    for view in (left, right):
-        view.ViewTime = time
-        framed(view, bounds)
-    titled(left, f"water after {time:.3g} s")
-    titled(right, "its mesh and what the grains leave of it")
-    simple.SaveScreenshot(str(out / "paraview_water.png"), layout, ImageResolution=[2 * WIDTH, HEIGHT],
-                          CompressionLevel="9")
+    titles = {left: f"water after {time:.3g} s", right: "its mesh and what the grains leave of it"}
+    saved(layout, titles, time, bounds, out / "paraview_water.png")
 
 
 def main():
