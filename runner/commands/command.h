@@ -63,6 +63,10 @@ void add_study_options(CLI::App& command, study::Options& options);
 
 /// Adds `--jobs`, `--threads`, `--memory` and `--oversubscribe`: how this machine is shared out among cases.
 void add_sharing_options(CLI::App& command, execute::Sharing& sharing);
+
+/// Lets an option be a number from `least` up.
+CLI::Validator from_up(double least);
+
 /// Lets an option be one of these names only, which its help lists; another word is answered with the nearest.
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names);
 

@@ -38,10 +38,10 @@ void add_study_options(CLI::App& command, study::Options& options) {
 void add_sharing_options(CLI::App& command, execute::Sharing& sharing) {
   command.add_option("-j,--jobs", sharing.jobs, "Cases at a time; default: the cores are shared out")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(from_up(1));
   command.add_option("--threads", sharing.threads, "Threads per case; changes no bit of the results")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(from_up(1));
   command
       .add_option_function<std::uint64_t>(
           "--memory", [&sharing](const std::uint64_t& bytes) { sharing.memory_mb = static_cast<double>(bytes) / 1e6; },
@@ -50,6 +50,16 @@ void add_sharing_options(CLI::App& command, execute::Sharing& sharing) {
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(true));
   command.add_flag("--oversubscribe", sharing.oversubscribe, "Let cases have more threads than there are cores");
+}
+
+CLI::Validator from_up(double least) {
+  // The library's own words name the largest number of all, in three hundred digits.
+  return {[least](std::string& word) {
+            double number = 0;
+            if (CLI::detail::lexical_cast(word, number) && number >= least) return std::string();
+            return fmt::format("\"{}\" is no number from {:g} up", word, least);
+          },
+          ""};
 }
 
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& names) {

@@ -127,7 +127,7 @@ void add_probe(CLI::App& app, Call& call) {
       ->add_option("--tolerance", arguments.tolerance,
                    "Largest relative distance of a metric or curve; 0: identical to the last bit")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(from_up(0))
       ->type_name("TOL");
   add_sharing_options(*command, arguments.sharing);
   add_format_option(*command, arguments.format);

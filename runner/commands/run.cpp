@@ -173,7 +173,7 @@ void add_run(CLI::App& app, Call& call) {
   add_sharing_options(*command, campaign.sharing);
   command->add_option("--checkpoint", campaign.checkpoint_every, "Wall time between two checkpoints of a case [s]")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(from_up(0));
   add_store_option(*command, campaign.root);
   command->add_flag("--dry-run", arguments.dry_run, "Say what would be run, and why; write nothing");
   command->footer(

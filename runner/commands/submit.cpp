@@ -128,7 +128,7 @@ void add_submit(CLI::App& app, Call& call) {
   add_store_option(*command, arguments.root);
   command->add_option("--throttle", options.throttle, "Tasks of an array at a time; default: as many as Slurm likes")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(from_up(1));
   command->add_option("--time", options.resources.time, "Time limit of a task, as sbatch takes it")
       ->capture_default_str()
       ->type_name("TIME");
@@ -138,21 +138,21 @@ void add_submit(CLI::App& app, Call& call) {
   command->add_option("--threads", options.resources.threads, "Threads per case; changes no bit of the results")
       ->capture_default_str()
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(from_up(1));
   command
       ->add_option("--batch-seconds", options.batch_seconds,
                    "Short cases share a task until it takes about this long [s]")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(from_up(0));
   command->add_option("--checkpoint", options.checkpoint_every, "Wall time between two checkpoints of a case [s]")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(from_up(0));
   command
       ->add_option("--restarts", options.resources.most_restarts,
                    "Times that a task goes back into the queue at its time limit")
       ->capture_default_str()
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
+      ->check(from_up(0));
   command->add_flag("--dry-run", arguments.dry_run, "Print the command lines; submit and write nothing");
   command->add_option("SBATCH", options.sbatch, "Arguments for sbatch, after \"--\"")->type_name("");
   command->footer(

@@ -71,6 +71,8 @@ TEST(DidYouMean, AWordThatDoesNotExistEndsWithTwoAndNamesTheNearest) {
            Said{{"mien.json"}, "there is no file mien.json; did you mean \"mine.json\"?"},
            Said{{"no/such/file.json"}, "there is no file no/such/file.json"},
            Said{{"query", "--format", "jsno"}, "--format: \"jsno\" is unknown; allowed: table, csv, json, ndjson; did"},
+           Said{{"run", "mine.json", "--jobs", "0"}, "--jobs: \"0\" is no number from 1 up"},
+           Said{{"probe", "mine.json", "--tolerance", "-1"}, "--tolerance: \"-1\" is no number from 0 up"},
        }) {
     const Finished finished = place.run(said.words);
     EXPECT_EQ(finished.exit_code, 2) << said.sentence;
