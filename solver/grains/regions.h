@@ -8,6 +8,7 @@
 // solved.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,8 +37,9 @@ class Regions {
   std::int32_t tiles() const { return tiles_; }
   /// Tile of a grain.
   std::int32_t tile_of(std::int32_t grain) const { return grain / tile_grains_; }
-  /// First grain of a tile, or of what stands behind the last one; a multiple of four but for the end of all.
-  std::int32_t first_grain(std::int32_t tile) const { return tile < tiles_ ? tile * tile_grains_ : grains_; }
+  /// First grain of a tile, or of what stands behind the last one; a multiple of four but for the end of all. Of many
+  /// grains the last tiles may have none.
+  std::int32_t first_grain(std::int32_t tile) const { return std::min(tile * tile_grains_, grains_); }
   /// The same for groups of four bodies.
   std::int32_t first_group(std::int32_t tile) const { return (first_grain(tile) + 3) / 4; }
 
