@@ -102,6 +102,8 @@ SlurmdParameters=config_overrides
 NodeName=$host NodeAddr=127.0.0.1 CPUs=${SEAPILE_SLURM_CPUS:-8} RealMemory=${SEAPILE_SLURM_MEMORY:-4000}
 PartitionName=main Nodes=$host Default=YES State=UP
 CONF
+# Left to find out by itself which control groups there are, slurmd does not start where there are none.
+echo CgroupPlugin=cgroup/v1 > "$folder/cgroup.conf"
 export SLURM_CONF=$folder/slurm.conf
 
 trap stop EXIT
