@@ -18,8 +18,6 @@ namespace seapile::cluster {
 
 namespace bp = boost::process;
 
-bool is_installed(const std::string& program) { return !bp::search_path(program).empty(); }
-
 Answer ask(const std::string& program, const std::vector<std::string>& arguments) {
   const auto found = bp::search_path(program);
   if (found.empty())

@@ -18,9 +18,6 @@ struct Answer {
   std::string out, error;
 };
 
-/// Whether there is such a program in PATH.
-bool is_installed(const std::string& program);
-
 /// Runs `program`, found in PATH, until it ends. The arguments reach it as they are: no shell reads them. Throws
 /// SchedulerError when there is no such program.
 Answer ask(const std::string& program, const std::vector<std::string>& arguments);

@@ -26,7 +26,7 @@ CurveRuns curve_runs(const store::Catalogue& catalogue, const fs::path& root, co
     if (!is_drive && !is_basin) continue;
     if (is_drive && has_fluid) drives.series = present::Series::both;
     fs::path bed;
-    if (is_drive) bed = store::case_folder(root, manifest.header.bed_id) / manifest.header.bed_run;
+    if (is_drive) bed = store::bed_run_folder(root, manifest.header);
     (is_drive ? drives : basins).sources.push_back({manifest.header.case_id, manifest.run, labels, folder, bed});
     const auto pile = std::ranges::find(manifest.header.parts, "pile", &simulation::Part::name);
     const bool has_pile = pile != manifest.header.parts.end() && pile->built;

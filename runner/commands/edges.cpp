@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "runner/execute/campaign.h"
 #include "runner/store/finished.h"
@@ -131,13 +132,14 @@ std::vector<std::vector<double>> next_probes(const study::Study& study,
   return probes;
 }
 
-study::Study searched(const std::string& file, study::Options options, const std::filesystem::path& root) {
+study::Study searched(const std::string& file, study::Options& options, const std::filesystem::path& root) {
   for (;;) {
     study::Study study = study::read(file, options);
     const auto searches = edge_searches(study, root);
     if (!untried_probes(study, searches).empty()) return study;
-    options.probes = next_probes(study, searches);
-    if (options.probes.empty()) return study;
+    auto probes = next_probes(study, searches);
+    if (probes.empty()) return study;
+    options.probes = std::move(probes);
   }
 }
 

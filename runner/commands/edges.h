@@ -24,7 +24,7 @@ std::vector<std::vector<double>> next_probes(const study::Study& study,
                                              const std::vector<present::EdgeSearch>& searches);
 
 /// The study of a file with every value as a case that its searches have come to in the store, tried or to be tried
-/// next. Throws as edge_searches() does.
-study::Study searched(const std::string& file, study::Options options, const std::filesystem::path& root);
+/// next. They go on from `options.probes`, which then holds these values. Throws as edge_searches() does.
+study::Study searched(const std::string& file, study::Options& options, const std::filesystem::path& root);
 
 }  // namespace seapile::commands

@@ -57,8 +57,8 @@ int export_bundle(const ExportArguments& arguments) {
     throw UsageError(fmt::format("{} cannot be bundled: {}", arguments.id, why));
   try {
     store::Bundle bundle{{found->folder, found->manifest}, {}, grains_of(found->manifest, arguments.root)};
-    if (const store::RunHeader& header = found->manifest.header; !header.bed_id.empty()) {
-      const fs::path folder = store::case_folder(arguments.root, header.bed_id) / header.bed_run;
+    if (!found->manifest.header.bed_id.empty()) {
+      const fs::path folder = store::bed_run_folder(arguments.root, found->manifest.header);
       bundle.bed = store::BundledRun{folder, store::read_manifest(folder)};
     }
     store::write_bundle(arguments.out, bundle, arguments.with_fields);

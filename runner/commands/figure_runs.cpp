@@ -28,7 +28,7 @@ std::size_t frame_at(double depth, const std::vector<double>& asked, const std::
 }
 
 double surface_of_bed(const fs::path& root, const store::RunHeader& header) {
-  const auto bed = store::read_manifest(store::case_folder(root, header.bed_id) / header.bed_run);
+  const auto bed = store::read_manifest(store::bed_run_folder(root, header));
   const auto& metrics = bed.result.metrics;
   const auto found = std::ranges::find(metrics, "surface", &simulation::Metric::name);
   if (found == metrics.end()) {

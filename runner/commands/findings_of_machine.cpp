@@ -4,6 +4,7 @@
 #include "runner/commands/findings.h"
 #include "runner/execute/provenance.h"
 #include "runner/execute/trial.h"
+#include "runner/present/gnuplot.h"
 
 namespace seapile::commands {
 namespace {
@@ -12,17 +13,10 @@ constexpr double kLittleMemory = 1000;  // [MB] what a run of 6,000 grains with 
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// The line with which a program names its version; `absent` is what it would have been needed for.
-Finding program(const char* area, const std::string& name, const std::vector<std::string>& question,
-                const std::string& absent) {
-  try {
-    const cluster::Answer answer = cluster::ask(name, question);
-    const std::string line = first_line(answer.out.empty() ? answer.error : answer.out);
-    if (answer.exit_code == 0) return {Health::ok, area, name, line};
-    return {Health::note, area, name, fmt::format("ended with code {}: {}; {}", answer.exit_code, line, absent)};
-  } catch (const cluster::SchedulerError&) {
-    return {Health::note, area, name, "is not in PATH; " + absent};
-  }
+Finding gnuplot() {
+  const std::string version = present::gnuplot_version();
+  if (!version.empty()) return {Health::ok, "program", "gnuplot", version};
+  return {Health::note, "program", "gnuplot", "does not answer; figures and pictures of curves cannot be drawn"};
 }
 
 Finding mesher() {
@@ -37,11 +31,6 @@ Finding memory() {
   const double free = execute::available_memory_mb();
   const Health health = free < kLittleMemory ? Health::note : Health::ok;
   return {health, "machine", "memory", fmt::format("{:.1f} GB can be had without swapping", free / 1000)};
-}
-
-Finding paraview() {
-  if (cluster::is_installed("pvbatch")) return {Health::ok, "optional", "ParaView", "pvbatch is in PATH"};
-  return {Health::note, "optional", "ParaView", "pvbatch is not in PATH; only ParaView's own views need it"};
 }
 
 Finding slurm() {
@@ -71,12 +60,11 @@ std::vector<Finding> findings_of_machine() {
                    for_users ? "" : "; the release build is faster, and is what results are compared with")});
   findings.push_back({Health::ok, "program", "libraries", made.libraries});
   findings.push_back(mesher());
-  findings.push_back(program("program", "gnuplot", {"--version"}, "figures and pictures of curves cannot be drawn"));
+  findings.push_back(gnuplot());
   findings.push_back(
       {Health::ok, "machine", "processor", fmt::format("{}, {} cores for us", made.host_cpu, made.cores)});
   findings.push_back(memory());
   findings.push_back(slurm());
-  findings.push_back(paraview());
   return findings;
 }
 

@@ -10,6 +10,7 @@
 #include "runner/store/catalogue.h"
 #include "runner/store/database.h"
 #include "runner/store/disk_use.h"
+#include "runner/store/equivalence.h"
 #include "runner/store/file_system.h"
 
 namespace seapile::commands {
@@ -65,8 +66,10 @@ Finding look_at_catalogue(const fs::path& root) {
   } catch (const store::OlderSchema& error) {
     return of_store(Health::problem, "catalogue", error.what());
   } catch (const store::StoreError& error) {
-    return of_store(Health::problem, "catalogue",
-                    fmt::format("{}; `runner reindex` writes it anew from the run folders", error.what()));
+    const bool damaged = error.kind == store::StoreError::Kind::damaged;
+    return of_store(
+        Health::problem, "catalogue",
+        fmt::format("{}{}", error.what(), damaged ? "; `runner reindex` writes it anew from the run folders" : ""));
   }
 }
 
@@ -104,18 +107,26 @@ void look_at_runs(const fs::path& root, std::vector<Finding>& findings) {
     findings.push_back(of_store(Health::note, "strange", counted(strange) + " hold files that are none of ours"));
 }
 
-}  // namespace
+void look_at_declarations(const fs::path& root, std::vector<Finding>& findings) {
+  const store::Equivalences equivalences = store::read_equivalences(root);
+  if (!equivalences.declared.empty())
+    findings.push_back(
+        of_store(Health::ok, "declarations", fmt::format("{} of equivalence", equivalences.declared.size())));
+  for (const std::string& sentence : equivalences.left_out)
+    findings.push_back(
+        of_store(Health::note, "declarations", sentence + "; it counts for nothing: delete it and probe again"));
+}
 
-std::vector<Finding> findings_of_store(const fs::path& root) {
-  std::vector<Finding> findings;
+/// Throws store::StoreError.
+void look_at_store(const fs::path& root, std::vector<Finding>& findings) {
   std::error_code ignored;
   const bool there = fs::is_directory(root, ignored);
   if (!there && store::is_there(root)) {
     findings.push_back(of_store(Health::problem, "folder", root.string() + " is no folder"));
-    return findings;
+    return;
   }
   look_at_file_system(root, there, findings);
-  if (!there) return findings;
+  if (!there) return;
   if (store::is_there(root / store::kCatalogueFile)) {
     findings.push_back(look_at_catalogue(root));
   } else {
@@ -123,6 +134,18 @@ std::vector<Finding> findings_of_store(const fs::path& root) {
                                 "is not there; the next run or `runner reindex` makes it"));
   }
   look_at_runs(root, findings);
+  look_at_declarations(root, findings);
+}
+
+}  // namespace
+
+std::vector<Finding> findings_of_store(const fs::path& root) {
+  std::vector<Finding> findings;
+  try {
+    look_at_store(root, findings);
+  } catch (const store::StoreError& error) {
+    findings.push_back(of_store(Health::problem, "reading", error.what()));
+  }
   return findings;
 }
 

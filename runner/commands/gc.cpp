@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -30,22 +28,9 @@ struct GcArguments {
   present::Format format = present::Format::table;
 };
 
-constexpr std::array kPrefixes = {"", "K", "M", "G", "T"};
-constexpr double kStep = 1024;
-
-/// "500M", "50G", "1T": powers of 1024; a bare number is bytes.
-std::uint64_t read_bytes(const std::string& text) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  std::string prefix(rest, end);
-  if (prefix.ends_with("B")) prefix.pop_back();
-  const auto found = std::ranges::find(kPrefixes, prefix);
-  constexpr double kMost = 1e18;
-  const double bytes = number * std::pow(kStep, found - kPrefixes.begin());
-  if (error != std::errc() || found == kPrefixes.end() || !(bytes >= 0 && bytes <= kMost))
-    throw UsageError(fmt::format("--budget: \"{}\" is no size; a number with K, M, G or T, such as 500M or 50G", text));
-  return static_cast<std::uint64_t>(bytes);
+std::uint64_t read_budget(const std::string& text) {
+  if (const auto bytes = present::bytes_from(text)) return *bytes;
+  throw UsageError(fmt::format("--budget: \"{}\" is no size; a number with K, M, G or T, such as 500M or 50G", text));
 }
 
 /// The runs of beds that interrupted drives may be built on. An attempt says only which run of its bed it is, so the
@@ -126,7 +111,7 @@ std::uint64_t carry_out(const std::vector<store::Removal>& removals, const std::
 int gc(const GcArguments& arguments) {
   store::GarbageRules rules;
   rules.keep = arguments.keep;
-  if (!arguments.budget.empty()) rules.budget = read_bytes(arguments.budget);
+  if (!arguments.budget.empty()) rules.budget = read_budget(arguments.budget);
   rules.drop.insert(arguments.drop.begin(), arguments.drop.end());
   if (!fs::is_directory(fs::path(arguments.root) / "cases")) {
     fmt::print(stderr, "{} is no folder of results\n", arguments.root);

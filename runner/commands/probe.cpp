@@ -99,8 +99,7 @@ int probe(const ProbeArguments& arguments) {
     fmt::print(stderr, "nothing is stale by its numerics alone\n");
     return execute::kNothingMatched;
   }
-  int stopped = execute::kDone;
-  const std::vector<ProbeResult> results = probe(groups, root, sharing, arguments.tolerance, stopped);
+  const auto [results, stopped] = probe(groups, root, sharing, arguments.tolerance);
   std::size_t fresh = 0, stale = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const bool equivalent = results[i].probed == Probed::equivalent;
@@ -111,7 +110,7 @@ int probe(const ProbeArguments& arguments) {
   fmt::print(stderr, "{} case{} equivalent and no longer stale, {} stale as before\n", fresh, fresh == 1 ? "" : "s",
              stale);
   const bool listed = fresh == 0 || is_listed(root);
-  if (stopped != execute::kDone) return stopped;
+  if (stopped) return *stopped;
   const int code = code_of(results);
   return code == execute::kDone && !listed ? execute::kStoreUnusable : code;
 }

@@ -28,13 +28,9 @@ namespace fs = std::filesystem;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-fs::path bed_run_of(const fs::path& root, const store::RunHeader& header) {
-  return store::case_folder(root, header.bed_id) / header.bed_run;
-}
-
 /// Why a run cannot be computed again on the bits that it was built on; empty: it can.
 std::string hindrance(const fs::path& root, const store::RunHeader& header) {
-  if (header.bed_id.empty() || store::is_there(bed_run_of(root, header) / store::kManifestFile)) return "";
+  if (header.bed_id.empty() || store::is_there(store::bed_run_folder(root, header) / store::kManifestFile)) return "";
   return fmt::format("run {} of its bed {} is gone", header.bed_run, execute::short_id(header.bed_id));
 }
 
@@ -152,8 +148,8 @@ ProbeResult judge_probe(const present::FinishedRun& before, const present::Finis
   return result;
 }
 
-std::vector<ProbeResult> probe(const std::vector<ProbeGroup>& groups, const fs::path& root,
-                               const execute::Sharing& sharing, double tolerance, int& code) {
+Probes probe(const std::vector<ProbeGroup>& groups, const fs::path& root, const execute::Sharing& sharing,
+             double tolerance) {
   const ScratchStore scratch(root);
   study::Study study;
   execute::Plan plan = plan_of(groups, study);
@@ -167,7 +163,7 @@ std::vector<ProbeResult> probe(const std::vector<ProbeGroup>& groups, const fs::
   execute::Processes processes(execute::kThisProgram, [&](const execute::Task& task) { return requests.at(task.id); });
   for (const ProbeGroup& group : groups) {
     const store::RunHeader& header = group.cheapest.manifest.header;
-    if (group.hindrance.empty() && !header.bed_id.empty()) scratch.take_along(bed_run_of(root, header));
+    if (group.hindrance.empty() && !header.bed_id.empty()) scratch.take_along(store::bed_run_folder(root, header));
   }
   execute::Summary summary;
   {
@@ -178,11 +174,11 @@ std::vector<ProbeResult> probe(const std::vector<ProbeGroup>& groups, const fs::
                                       [](const std::string&) { return false; }};
     summary = execute::carry_out(plan, study, execute::todays_numerics, sharing, processes, store, watch);
   }
-  code = summary.signals > 0 ? execute::exit_code(summary) : execute::kDone;
-  std::vector<ProbeResult> results;
+  Probes probes;
+  if (summary.signals > 0) probes.stopped = execute::exit_code(summary);
   for (std::size_t i = 0; i < groups.size(); ++i)
-    results.push_back(result_of(groups[i], summary.states[i], summary.why[i], scratch.root(), tolerance));
-  return results;
+    probes.results.push_back(result_of(groups[i], summary.states[i], summary.why[i], scratch.root(), tolerance));
+  return probes;
 }
 
 }  // namespace seapile::commands

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,9 +50,15 @@ struct ProbeResult {
 /// What the new run says of the old one's group.
 ProbeResult judge_probe(const present::FinishedRun& before, const present::FinishedRun& now, double tolerance);
 
+/// What came of probing every group.
+struct Probes {
+  std::vector<ProbeResult> results;  ///< one per group
+  std::optional<int> stopped;        ///< the command's exit code, where a signal ended it early
+};
+
 /// Computes the cheapest case of every group in a folder of its own below the root, which is gone when this returns,
-/// and judges it. Progress on standard error. `code`: how the command is to end by what became of the processes.
-std::vector<ProbeResult> probe(const std::vector<ProbeGroup>& groups, const std::filesystem::path& root,
-                               const execute::Sharing& sharing, double tolerance, int& code);
+/// and judges it. Progress on standard error.
+Probes probe(const std::vector<ProbeGroup>& groups, const std::filesystem::path& root, const execute::Sharing& sharing,
+             double tolerance);
 
 }  // namespace seapile::commands

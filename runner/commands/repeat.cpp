@@ -50,8 +50,7 @@ class Unpacked {
 FinishedRun run_in(const fs::path& folder) { return {folder, store::read_manifest(folder)}; }
 
 FinishedRun bed_of(const FinishedRun& run, const fs::path& root) {
-  const store::RunHeader& header = run.manifest.header;
-  return run_in(store::case_folder(root, header.bed_id) / header.bed_run);
+  return run_in(store::bed_run_folder(root, run.manifest.header));
 }
 
 /// Runs that are there already are taken for a repetition only where this program made them.

@@ -34,7 +34,9 @@ using present::Tone;
 /// The study with the cases that it has come to: of a rule its packings, of an edge all values that were tried.
 study::Study read_whole(const ReportRequest& request) {
   study::Study study = read_settled(request.study, request.options, request.root);
-  return study.edge ? searched(request.study, request.options, request.root) : study;
+  if (!study.edge) return study;
+  study::Options options = request.options;
+  return searched(request.study, options, request.root);
 }
 
 std::string today() {

@@ -94,8 +94,9 @@ void say_what_is_built(const study::Study& study) {
 /// all that was tried stays in the catalogue under the study.
 int run_edge(const RunArguments& arguments) {
   const fs::path root = arguments.campaign.root;
+  study::Options options = arguments.options;
   for (;;) {
-    const study::Study study = searched(arguments.study, arguments.options, root);
+    const study::Study study = searched(arguments.study, options, root);
     const auto searches = edge_searches(study, root);
     if (const auto untried = untried_probes(study, searches); !untried.empty()) {
       study::Options round = arguments.options;

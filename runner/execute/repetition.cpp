@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "runner/store/build_values.h"
 #include "runner/study/grain_file.h"
 #include "solver/scene/validate.h"
 
@@ -81,17 +82,11 @@ study::Study repetition_of(const store::Manifest& manifest, const std::filesyste
 
 std::vector<std::string> differences(const store::Provenance& a, const store::Provenance& b) {
   std::vector<std::string> names;
-  const auto compare = [&](const char* name, const auto& one, const auto& other) {
-    if (one != other) names.emplace_back(name);
-  };
-  compare("version", a.version, b.version);
-  compare("commit", a.commit, b.commit);
-  compare("changes", a.dirty, b.dirty);
-  compare("compiler", a.compiler, b.compiler);
-  compare("flags", a.flags, b.flags);
-  compare("build type", a.build_type, b.build_type);
-  compare("libraries", a.libraries, b.libraries);
-  compare("processor", a.host_cpu, b.host_cpu);
+  const auto of_a = store::build_values(a), of_b = store::build_values(b);
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    if (of_a[i].second != of_b[i].second) names.push_back(of_a[i].first);
+  }
+  if (a.host_cpu != b.host_cpu) names.emplace_back("processor");
   return names;
 }
 

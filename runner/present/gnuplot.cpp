@@ -150,6 +150,20 @@ Heading heading(const std::string& title, const std::string& note, int width, in
   return result;
 }
 
+std::string gnuplot_version() {
+  namespace bp = boost::process;
+  const auto gnuplot = bp::search_path("gnuplot");
+  if (gnuplot.empty()) return "";
+  bp::ipstream output;
+  std::string line;
+  std::error_code error;
+  bp::child child(gnuplot, "--version", bp::std_in<bp::null, bp::std_out> output, bp::std_err > bp::null, error);
+  if (error) return "";
+  std::getline(output, line);
+  child.wait(error);
+  return error || child.exit_code() != 0 ? "" : line;
+}
+
 void draw_with_gnuplot(const std::string& script, const fs::path& svg) {
   namespace bp = boost::process;
   const auto fail = [&](const std::string& why) {

@@ -40,6 +40,9 @@ inline constexpr int kHeadingSide = 28;  ///< from the left and from the upper e
 /// `title`: of any length; broken at `most` characters, and cut when it is longer than a few lines.
 Heading heading(const std::string& title, const std::string& note, int width, int height, std::size_t most);
 
+/// "gnuplot 5.4 patchlevel 4"; "" where it is not installed or does not answer.
+std::string gnuplot_version();
+
 /// Runs a script that draws one picture to standard output; the file appears when it is complete. Throws
 /// store::StoreError.
 void draw_with_gnuplot(const std::string& script, const std::filesystem::path& svg);

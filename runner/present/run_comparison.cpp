@@ -11,6 +11,7 @@
 #include <set>
 
 #include "runner/present/curve.h"
+#include "runner/store/build_values.h"
 #include "runner/store/final_state.h"
 #include "runner/store/manifest.h"
 #include "runner/store/parameters.h"
@@ -77,12 +78,6 @@ Values numerics_values(const store::RunHeader& header) {
   Values values;
   for (const auto& [module, version] : header.numerics) values.emplace_back(module, fmt::format("{}", version));
   return values;
-}
-
-Values code_values(const store::Provenance& made) {
-  return {{"version", made.version},    {"commit", made.commit}, {"dirty", made.dirty ? "yes" : "no"},
-          {"compiler", made.compiler},  {"flags", made.flags},   {"build type", made.build_type},
-          {"libraries", made.libraries}};
 }
 
 Values environment_values(const store::Provenance& made) {
@@ -205,7 +200,7 @@ RunComparison compare(const FinishedRun& a, const FinishedRun& b) {
   units.merge(record_units());
   result.parameters = differences(parameter_values(of_a), parameter_values(of_b), units);
   result.numerics = differences(numerics_values(of_a), numerics_values(of_b));
-  result.code = differences(code_values(a.manifest.provenance), code_values(b.manifest.provenance));
+  result.code = differences(store::build_values(a.manifest.provenance), store::build_values(b.manifest.provenance));
   result.environment =
       differences(environment_values(a.manifest.provenance), environment_values(b.manifest.provenance));
   result.metrics = metric_distances(a.manifest.result, b.manifest.result);

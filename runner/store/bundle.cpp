@@ -80,7 +80,7 @@ void write_bundle(const Path& file, const Bundle& bundle, bool with_fields) {
   if (bundle.grains) put_text(sources, grains_path(bundle.grains->content), read_text(bundle.grains->file));
 
   const RunHeader& header = bundle.run.manifest.header;
-  BundleIndex index{header.case_id, bundle.run.manifest.run, header.bed_id, header.bed_run, {}, ""};
+  BundleIndex index{header.case_id, bundle.run.manifest.run, header.bed_id, header.bed_run, {}};
   for (const auto& [name, source] : sources) index.members.push_back(source.first);
   const std::string text = index_text(index);
 

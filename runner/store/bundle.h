@@ -37,7 +37,6 @@ struct Bundle {
   BundledRun run;
   std::optional<BundledRun> bed;        ///< of a drive
   std::optional<BundledGrains> grains;  ///< absent: they are drawn
-  std::string seal = {};                ///< of the index, when read
 };
 
 /// Where a store keeps the grains of a file: "grains/<content>.csv".

@@ -61,7 +61,6 @@ std::string index_text(const BundleIndex& index) {
 
 BundleIndex parse_index(const std::string& text, const std::filesystem::path& where) {
   BundleIndex index;
-  index.seal = seal_of(text, where);
   try {
     const Json json = Json::parse(unsealed(text, where));
     if (json.at("content") != kContent) damaged(where, "it is no index of a bundle");
@@ -89,7 +88,7 @@ BundleIndex parse_index(const std::string& text, const std::filesystem::path& wh
 }
 
 std::string run_path(const std::string& case_id, const std::string& run) {
-  return "cases/" + case_id + "/" + run + "/";
+  return (case_folder("", case_id) / run / "").string();
 }
 
 std::string objection_to_name(const std::string& name) {

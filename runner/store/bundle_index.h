@@ -13,7 +13,6 @@ struct BundleIndex {
   std::string case_id, run;
   std::string bed_id, bed_run;     ///< "" where there is no bed
   std::vector<FileEntry> members;  ///< every other member, by rising name
-  std::string seal;                ///< when read
 };
 
 /// The text of bundle.json: JSON that seals itself.

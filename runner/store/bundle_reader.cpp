@@ -40,7 +40,6 @@ class Unpacker {
     for (const auto& [name, entry] : entries_)
       if (!seen_.contains(name)) refuse(quoted(name) + " is missing: the file is cut off, or was changed");
     Bundle bundle;
-    bundle.seal = index_.seal;
     bundle.run = {folder_ / run_path(index_.case_id, index_.run), checked(index_.case_id, index_.run)};
     const RunHeader& header = bundle.run.manifest.header;
     if (header.bed_id != index_.bed_id || header.bed_run != index_.bed_run)
@@ -90,9 +89,8 @@ class Unpacker {
       refuse(fmt::format("{} has {} bytes instead of {}", name, member.bytes, entry.bytes));
 
     const Path to = folder_ / member.name;
-    std::error_code
-        error;  // Where it cannot be created, neither can the file. Nothing here has to survive: no syncing.
-    std::filesystem::create_directories(to.parent_path(), error);
+    std::error_code ignored;  // where the folder cannot be made, neither can the file
+    std::filesystem::create_directories(to.parent_path(), ignored);
     Descriptor out(to, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, "create");
     Sha256 hash;
     std::uint64_t left = entry.bytes;

@@ -185,9 +185,11 @@ std::vector<std::string> Catalogue::refresh_equivalences() {
 
 Ingested Catalogue::ingest_missing() {
   Ingested ingested;
-  ingested.left_out = refresh_equivalences();
+  Equivalences equivalences = read_equivalences(impl_->root);
+  ingested.left_out = std::move(equivalences.left_out);
   const std::vector<StudyEntry> studies = read_studies(impl_->root);
   impl_->transact([&](SQLite::Database& sqlite) {
+    ingest_equivalences(sqlite, equivalences.declared);
     SQLite::Statement same_study(sqlite, "SELECT 1 FROM study WHERE name = ? AND file_sha256 = ?");
     for (const StudyEntry& study : studies) {
       same_study.reset();

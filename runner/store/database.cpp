@@ -115,6 +115,7 @@ Database::Database(const Path& root, Schema schema, std::optional<Descriptor> lo
       if (left.empty() || !before.ends_with(left)) check();
       // Only now: what is damaged is left as it was found.
       sqlite_->exec("PRAGMA synchronous=FULL");
+      // Write-ahead logging needs memory shared between processes, which file systems over a network do not give.
       answer(*sqlite_, file_system_of(root).is_local ? "PRAGMA journal_mode=WAL" : "PRAGMA journal_mode=DELETE");
     }
     if (schema == Schema::todays) require_schema(*sqlite_, file_, writes);

@@ -30,7 +30,8 @@ constexpr std::array kKnown = {
 
 fs::path nearest_there(const fs::path& folder) {
   fs::path there = fs::absolute(folder).lexically_normal();
-  while (!fs::is_directory(there) && there.has_relative_path()) there = there.parent_path();
+  std::error_code ignored;  // What may not be looked at is as good as not there.
+  while (!fs::is_directory(there, ignored) && there.has_relative_path()) there = there.parent_path();
   return there;
 }
 

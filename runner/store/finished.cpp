@@ -34,7 +34,7 @@ std::optional<FinishedCase> read_finished(const std::filesystem::path& root, con
   if (finished.manifest.result.outcome != simulation::Outcome::completed) return {};
   const RunHeader& header = finished.manifest.header;
   if (with_bed && !header.bed_id.empty()) {
-    const std::filesystem::path bed = case_folder(root, header.bed_id) / header.bed_run;
+    const std::filesystem::path bed = bed_run_folder(root, header);
     if (is_there(bed / kManifestFile)) finished.bed_metrics = read_manifest(bed).result.metrics;
   }
   return finished;

@@ -117,6 +117,10 @@ Path case_folder(const Path& root, const std::string& case_id) {
   return root / "cases" / case_id;
 }
 
+Path bed_run_folder(const Path& root, const RunHeader& drive) {
+  return case_folder(root, drive.bed_id) / drive.bed_run;
+}
+
 std::vector<std::string> complete_runs(const Path& case_folder) {
   std::vector<std::string> runs = all_runs(case_folder);
   std::erase_if(runs, [&](const std::string& run) { return !has_manifest(case_folder / run); });

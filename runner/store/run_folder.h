@@ -133,6 +133,9 @@ class RunWriter {
 /// The folder of a case below a store's root.
 std::filesystem::path case_folder(const std::filesystem::path& root, const std::string& case_id);
 
+/// The folder of the very run of the bed that a drive was built on.
+std::filesystem::path bed_run_folder(const std::filesystem::path& root, const RunHeader& drive);
+
 /// The runs of a case that have a manifest, newest last.
 std::vector<std::string> complete_runs(const std::filesystem::path& case_folder);
 

@@ -96,6 +96,11 @@ class Report(unittest.TestCase):
         self.assertGreater(drawn["deep"], drawn["shallow"])
         self.assertLessEqual(drawn["axis"], drawn["area"] + 1)
 
+    def test_writes_small_numbers_of_an_axis_in_few_digits(self):
+        ticks = [{"value": n * 2e-13} for n in range(-4, 4)]
+        self.assertEqual(self.ask("return arguments[0].map((tick, i) => tickText(tick.value, i, arguments[0]))", ticks),
+                         ["-8e-13", "-6e-13", "-4e-13", "-2e-13", "0", "2e-13", "4e-13", "6e-13"])
+
     def test_leaves_no_canvas_and_no_picture_blank(self):
         colours = self.ask("""return [...document.querySelectorAll('canvas')].map(canvas => {
             const bytes = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -111,6 +112,26 @@ TEST_F(Doctor, AManifestThatWasChangedIsAProblem) {
   std::ofstream(manifest) << text;
   EXPECT_EQ(answer.exit_code, 3);
   EXPECT_EQ(findings(answer).at("store damaged").first, "problem");
+}
+
+TEST_F(Doctor, ADeclarationThatDoesNotHoldIsNamed) {
+  fs::create_directory(place->results() / "equivalents");
+  place->write("results/equivalents/bed.json", "{}");
+  const Finished answer = examine(*place);
+  fs::remove_all(place->results() / "equivalents");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(findings(answer).at("store declarations").first, "note");
+  EXPECT_THAT(findings(answer).at("store declarations").second, HasSubstr("bed.json"));
+}
+
+TEST_F(Doctor, WhereThereIsNoGnuplotAPictureIsMissedAndNothingElse) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  const Finished answer = examine(*place);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(findings(answer).at("program gnuplot").first, "note");
+  EXPECT_THAT(findings(answer).at("cluster Slurm").second, HasSubstr("is not here"));
 }
 
 TEST_F(Doctor, AFileInTheStoresPlaceIsAProblem) {
